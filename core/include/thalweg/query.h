@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: The thalweg authors
+// SPDX-License-Identifier: MIT
+//
+// What a collision query asks and what it answers. Inputs and results are columns that the caller owns.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "thalweg/result.h"
+
+namespace thalweg {
+
+enum class Status : std::uint8_t {
+  separated = 0,    ///< min f > 0 over the query is proven
+  overlapping = 1,  ///< f(point) < 0 is proven
+  touching = 2,     ///< neither is, and min f lies, proven, in [-tolerance, tolerance]
+  undecided = 3,    ///< anything else
+  bad_row = 255,    ///< a coordinate is not finite, or beyond 1e15 in size
+};
+
+enum class Method : std::uint8_t {
+  certified,  ///< branch and bound with proven bounds
+  thesis,     ///< triangles: projected descent as published by Luneau (2025), section 3.2
+  projected,  ///< triangles: barycentric projected descent, Macklin et al. (2020); also `descent`
+  published,  ///< circles: f(centre) < radius, Luneau (2025), section 3.1
+};
+enum class Goal : std::uint8_t { verdict, deepest };
+
+/// How a gradient is had; see core/docs/gradients.md.
+enum class Gradient : std::uint8_t { autodiff, central, forward, simplex, dichotomy, dichotomy_verbatim };
+
+[[nodiscard]] std::string_view name(Status status);
+[[nodiscard]] std::string_view name(Method method);
+[[nodiscard]] std::string_view name(Goal goal);
+[[nodiscard]] std::string_view name(Gradient gradient);
+[[nodiscard]] Result<Method> parse_method(std::string_view text);
+[[nodiscard]] Result<Goal> parse_goal(std::string_view text);
+[[nodiscard]] Result<Gradient> parse_gradient(std::string_view text);
+
+struct CollideOptions {
+  Method method = Method::certified;
+  Goal goal = Goal::verdict;
+  Gradient gradient = Gradient::autodiff;  ///< of the local methods; `thesis` as published: dichotomy_verbatim
+  bool gradient_given = false;             ///< false: each method takes its own default strategy
+  std::uint32_t starts = 0;                ///< 0: the method's own
+  std::uint32_t iterations = 0;            ///< 0: the method's own
+  double tolerance = 0;                    ///< scene units; 0: 1e-4 of the bounds' diagonal, or 1e-4
+  std::uint32_t budget = 4096;             ///< evaluations per query
+};
+
+/// Triangles or circles (2D) / spheres (3D), as rows in C order.
+struct Queries {
+  const float* rows = nullptr;  ///< triangles (N,3,d); circles (N,d+1): centre, then radius
+  std::size_t count = 0;
+};
+
+/// Result columns, N rows each; a null column is not computed. Points and normals are (N,d) in C order.
+struct CollideColumns {
+  std::uint8_t* status = nullptr;
+  float* value = nullptr;        ///< f at `point`
+  float* lower = nullptr;        ///< proven lower bound of f over the query; -inf where none is
+  std::uint8_t* converged = nullptr;
+  float* point = nullptr;
+  float* normal = nullptr;       ///< unit, out of the shape
+  float* barycentric = nullptr;  ///< (N,3), triangles only
+  std::uint8_t* claimed = nullptr;  ///< a local method's opinion: 1 when its value is negative
+  std::uint32_t* starts = nullptr;
+  std::uint32_t* iterations = nullptr;
+  std::uint32_t* evaluations = nullptr;
+  std::uint8_t* ambiguous = nullptr;  ///< the gradient vanishes at `point`; the normal is a fixed unit vector
+};
+
+}  // namespace thalweg

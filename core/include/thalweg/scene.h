@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The thalweg authors
+// SPDX-License-Identifier: MIT
+//
+// Scene text (JSON, UTF-8) to a Shape. Nothing is guessed: an unknown key, a missing or non-finite number, a wrong
+// arity or dimension is an Error whose place is the JSON pointer of what is wrong.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "thalweg/shape.h"
+
+namespace thalweg {
+
+struct Scene {
+  Shape shape;
+  int dimension = 2;
+};
+
+/// Parses a scene from memory. `file` is only used to name the text in errors.
+[[nodiscard]] Result<Scene> parse_scene(std::string_view text, std::string_view file);
+
+/// The scene file text of a shape: `{"thalweg": 1, "dimension": d, "shape": ...}`.
+[[nodiscard]] std::string scene_text(const Shape& shape);
+
+/// JSON Schema (draft 2020-12) of the scene format, generated from the op table.
+[[nodiscard]] std::string scene_schema();
+
+}  // namespace thalweg

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The thalweg authors
+// SPDX-License-Identifier: MIT
+//
+// A compiled shape: an immutable program for an accumulator machine. Each instruction leaves its result in the
+// accumulator and, when a later one needs it, in a register. A tape may be shared by any number of threads.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "thalweg/shape.h"
+
+namespace thalweg {
+
+/// One step of a tape.
+///   primitive  acc = field of op at position[operand]
+///   combine    acc = op(register[operand], acc), the other way round when kSwapped is set
+///   map        acc = op(acc)
+///   load       acc = register[operand]
+///   warp       position[target] = op(position[operand]); the accumulator is left alone
+struct Instruction {
+  static constexpr std::uint16_t kNone = 0xffff;
+
+  std::uint16_t op = 0;             ///< row of the op table, or kLoad
+  std::uint16_t operand = 0;        ///< register or position read
+  std::uint16_t target = kNone;     ///< register or position written; kNone: the accumulator alone
+  std::uint16_t flags = 0;          ///< see the constants below
+  std::uint32_t constants = 0;      ///< first derived constant in the pools
+  std::uint32_t constant_count = 0;
+
+  static constexpr std::uint16_t kLoad = 0xfffe;
+  static constexpr std::uint16_t kSupport = 1;  ///< convex primitive with a support function, reached rigidly
+  static constexpr std::uint16_t kSwapped = 2;  ///< the accumulator is the first operand
+};
+static_assert(sizeof(Instruction) == 16);
+
+/// a + b * m, where m is the largest coordinate magnitude of a query's region, in scene units.
+struct Affine {
+  double a = 0, b = 0;
+  [[nodiscard]] double operator()(double m) const { return a + b * m; }
+};
+
+struct Tape {
+  int dimension = 2;
+  std::vector<Instruction> instructions;
+  std::vector<float> constants;         ///< derived once from the parameters, in double, then rounded
+  std::vector<double> constants64;      ///< the same before rounding, for evaluation in double
+  int register_count = 0;
+  int position_count = 1;               ///< position 0 is the query point
+  Facts facts;                          ///< of the root
+  Affine slack;                         ///< |float32 value - f| <= slack(m); f in double has 2^-29 of it
+  bool has_support = false;             ///< some primitive has a support function, so enclosures beat f - L r
+
+  /// The program, one instruction a line.
+  [[nodiscard]] std::string disassembly() const;
+};
+
+/// Compiles a shape: shares equal nodes, folds placements into primitives, orders operands, allocates registers.
+[[nodiscard]] Result<Tape> compile(const Shape& shape);
+
+/// f at one point in double precision by the twin of the float32 kernels; `gradient` (d numbers) may be null.
+double evaluate_double(const Tape& tape, const double* point, double* gradient);
+
+}  // namespace thalweg

@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: The thalweg authors
+// SPDX-License-Identifier: MIT
+//
+// SSA to the accumulator machine. Of two operands the one that needs more registers is computed first (Sethi and
+// Ullman 1970), so that few registers are live; registers and positions are then given out by a linear scan, lowest
+// free number first.
+#include <algorithm>
+#include <queue>
+
+#include "compile/ssa.h"
+
+namespace thalweg::compiler {
+namespace {
+
+using Free = std::priority_queue<std::uint16_t, std::vector<std::uint16_t>, std::greater<>>;
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+/// Values in the order in which they are computed.
+std::vector<int> computed_order(const Ssa& ssa) {
+  // Operands have lower indices, so one pass gives the registers that each value needs.
+  std::vector<int> need(ssa.values.size(), 0);
+  for (std::size_t i = 0; i < ssa.values.size(); ++i) {
+    const Value& v = ssa.values[i];
+    if (v.a >= 0 && v.b < 0) need[i] = need[at(v.a)];
+    if (v.b >= 0) {
+      const auto [less, more] = std::minmax(need[at(v.a)], need[at(v.b)]);
+      need[i] = std::max(more, less + 1);
+    }
+  }
+  std::vector<int> order;
+  std::vector<char> done(ssa.values.size(), 0);
+  std::vector<int> open = {ssa.root};
+  while (!open.empty()) {
+    const int next = open.back();
+    const Value& v = ssa.values[at(next)];
+    int first = v.a;
+    int second = v.b;
+    if (second >= 0 && need[at(second)] > need[at(first)]) std::swap(first, second);
+    if (done[at(next)] != 0) {
+      open.pop_back();
+    } else if (first >= 0 && done[at(first)] == 0) {
+      open.push_back(first);
+    } else if (second >= 0 && done[at(second)] == 0) {
+      open.push_back(second);
+    } else {
+      done[at(next)] = 1;
+      order.push_back(next);
+      open.pop_back();
+    }
+  }
+  return order;
+}
+
+/// Where numbered things live: a slot is taken at the definition and given back after the last use.
+class Slots {
+ public:
+  explicit Slots(std::uint16_t first) : next_(first) {}
+  std::uint16_t take() {
+    if (free_.empty()) return next_ == Instruction::kNone - 2 ? overflow() : next_++;
+    const std::uint16_t slot = free_.top();
+    free_.pop();
+    return slot;
+  }
+  void give_back(std::uint16_t slot) { free_.push(slot); }
+  [[nodiscard]] int count() const { return next_; }
+  [[nodiscard]] bool overflowed() const { return overflowed_; }
+
+ private:
+  std::uint16_t overflow() {
+    overflowed_ = true;
+    return 0;
+  }
+  Free free_;
+  std::uint16_t next_;
+  bool overflowed_ = false;
+};
+
+class Writer {
+ public:
+  explicit Writer(const Ssa& ssa) : ssa_(ssa), order_(computed_order(ssa)) {}
+
+  Result<Tape> run(const Facts& facts) {
+    find_last_uses();
+    for (std::size_t step = 0; step < order_.size(); ++step) write(step);
+    if (registers_.overflowed() || positions_.overflowed()) {
+      return Error{.file = "", .place = "/shape", .expected = "fewer values alive at once", .found = "too many"};
+    }
+    tape_.dimension = ssa_.dimension;
+    tape_.register_count = registers_.count();
+    tape_.position_count = positions_.count();
+    tape_.facts = facts;
+    tape_.slack = ssa_.values[at(ssa_.root)].error;
+    tape_.constants.assign(tape_.constants64.begin(), tape_.constants64.end());
+    return std::move(tape_);
+  }
+
+ private:
+  void find_last_uses() {
+    last_use_.assign(ssa_.values.size(), 0);
+    position_last_use_.assign(ssa_.positions.size(), 0);
+    uses_left_.assign(ssa_.values.size(), 0);
+    for (std::size_t step = 0; step < order_.size(); ++step) {
+      const Value& v = ssa_.values[at(order_[step])];
+      for (const int operand : {v.a, v.b}) {
+        if (operand >= 0) {
+          last_use_[at(operand)] = step;
+          ++uses_left_[at(operand)];
+        }
+      }
+      for (int p = v.position; p >= 0; p = ssa_.positions[at(p)].parent) position_last_use_[at(p)] = step;
+    }
+    register_of_.assign(ssa_.values.size(), Instruction::kNone);
+    position_slot_.assign(ssa_.positions.size(), Instruction::kNone);
+    position_slot_[0] = 0;
+  }
+
+  /// A value needs a register unless its one use is the next step, which finds it in the accumulator.
+  [[nodiscard]] bool needs_register(std::size_t step) const {
+    const int value = order_[step];
+    if (step + 1 == order_.size()) return false;
+    const Value& next = ssa_.values[at(order_[step + 1])];
+    const bool next_takes_it = next.a == value || next.b == value;
+    return !(next_takes_it && uses_left_[at(value)] == 1);
+  }
+
+  void write(std::size_t step) {
+    const int index = order_[step];
+    const Value& v = ssa_.values[at(index)];
+    const int previous = step == 0 ? -1 : order_[step - 1];
+    Instruction instruction;
+    instruction.op = static_cast<std::uint16_t>(v.op);
+    if (v.position >= 0) {
+      instruction.operand = slot_of(v.position);
+      if (v.support) instruction.flags |= Instruction::kSupport;
+      tape_.has_support = tape_.has_support || v.support;
+    } else if (v.b < 0) {
+      if (previous != v.a) load(v.a);
+    } else {
+      if (previous != v.a && previous != v.b) load(v.b);
+      // With both in registers b was just loaded; with a in the accumulator the operator is written swapped.
+      const bool swapped = previous == v.a && v.a != v.b;
+      instruction.operand = register_of_[at(swapped ? v.b : v.a)];
+      if (swapped) instruction.flags |= Instruction::kSwapped;
+    }
+    store_constants(v.constants, instruction);
+    release(v, step);
+    if (needs_register(step)) instruction.target = register_of_[at(index)] = registers_.take();
+    tape_.instructions.push_back(instruction);
+  }
+
+  void load(int value) {
+    Instruction instruction;
+    instruction.op = Instruction::kLoad;
+    instruction.operand = register_of_[at(value)];
+    tape_.instructions.push_back(instruction);
+  }
+
+  void release(const Value& v, std::size_t step) {
+    for (const int operand : {v.a, v.b == v.a ? -1 : v.b}) {
+      if (operand < 0 || last_use_[at(operand)] != step) continue;
+      if (register_of_[at(operand)] != Instruction::kNone) registers_.give_back(register_of_[at(operand)]);
+    }
+    for (int p = v.position; p > 0; p = ssa_.positions[at(p)].parent) {
+      if (position_last_use_[at(p)] == step) positions_.give_back(position_slot_[at(p)]);
+    }
+  }
+
+  /// The slot of a position, writing the instructions that make it on first use.
+  std::uint16_t slot_of(int position) {
+    std::vector<int> missing;
+    for (int p = position; position_slot_[at(p)] == Instruction::kNone; p = ssa_.positions[at(p)].parent) {
+      missing.push_back(p);
+    }
+    for (auto p = missing.rbegin(); p != missing.rend(); ++p) {
+      const Position& made = ssa_.positions[at(*p)];
+      Instruction instruction;
+      instruction.op = static_cast<std::uint16_t>(made.op);
+      instruction.operand = position_slot_[at(made.parent)];
+      instruction.target = position_slot_[at(*p)] = positions_.take();
+      store_constants(made.constants, instruction);
+      tape_.instructions.push_back(instruction);
+    }
+    return position_slot_[at(position)];
+  }
+
+  void store_constants(const std::vector<double>& constants, Instruction& instruction) {
+    instruction.constants = static_cast<std::uint32_t>(tape_.constants64.size());
+    instruction.constant_count = static_cast<std::uint32_t>(constants.size());
+    tape_.constants64.insert(tape_.constants64.end(), constants.begin(), constants.end());
+  }
+
+  const Ssa& ssa_;
+  std::vector<int> order_;
+  std::vector<std::size_t> last_use_;
+  std::vector<std::size_t> position_last_use_;
+  std::vector<int> uses_left_;
+  std::vector<std::uint16_t> register_of_;
+  std::vector<std::uint16_t> position_slot_;
+  Slots registers_{0};
+  Slots positions_{1};
+  Tape tape_;
+};
+
+}  // namespace
+
+Result<Tape> to_tape(const Ssa& ssa, const Facts& facts) { return Writer(ssa).run(facts); }
+
+}  // namespace thalweg::compiler
+
+namespace thalweg {
+
+Result<Tape> compile(const Shape& shape) {
+  auto ssa = compiler::to_ssa(shape);
+  if (!ssa) return ssa.error();
+  return compiler::to_tape(*ssa, shape.facts());
+}
+
+}  // namespace thalweg

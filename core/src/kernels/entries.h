@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: The thalweg authors
+// SPDX-License-Identifier: MIT
+//
+// Each kernel of a Highway target (one bit of hwy/targets.h), from the file that compiles it for all of them.
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/kernels.h"
+
+namespace thalweg {
+
+[[nodiscard]] ValueKernel value_entry(std::int64_t target);
+[[nodiscard]] GradientKernel gradient_entry(std::int64_t target);
+[[nodiscard]] EnclosureKernel enclosure_entry(std::int64_t target);
+[[nodiscard]] TriangleSolver certify_triangles_entry(std::int64_t target);
+[[nodiscard]] CircleSolver certify_circles_entry(std::int64_t target);
+
+}  // namespace thalweg

@@ -1,0 +1,332 @@
+// SPDX-FileCopyrightText: The thalweg authors
+// SPDX-License-Identifier: MIT
+//
+// The tape's machine, written once over the lane type T and over what a register holds:
+//
+//   ValueMode      acc is f                        one field value per lane
+//   GradientMode   acc is f and its gradient       closed forms of the op templates
+//   EnclosureMode  acc is [lo, hi] over a cell     from Lipschitz constants, support functions and monotone operators
+//
+// A chunk of pack_lanes<W>() points runs through the whole tape before the next one starts: the accumulator and the
+// temporaries of an op stay in vector registers, and the few live registers of the tape stay in the first-level cache.
+// Included once per SIMD target.
+#if defined(THALWEG_KERNELS_INTERPRETER_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef THALWEG_KERNELS_INTERPRETER_INL
+#undef THALWEG_KERNELS_INTERPRETER_INL
+#else
+#define THALWEG_KERNELS_INTERPRETER_INL
+#endif
+
+#include "kernels/kernels.h"
+#include "ops/all.inl"
+#include "thalweg/tape.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace thalweg {
+namespace HWY_NAMESPACE {
+
+template <class T>
+HWY_INLINE size_t lanes_of() {
+  if constexpr (std::is_same_v<T, Real>) {
+    return 1;
+  } else {
+    return sizeof(T) / sizeof(float);
+  }
+}
+
+/// What one chunk needs: the program and the memory of registers and positions.
+template <class T>
+struct Machine {
+  using Scalar = typename ConstantsOf<T>::Scalar;
+  const Instruction* instructions;
+  size_t instruction_count;
+  const Scalar* pool;
+  Scalar* registers;     ///< [register][component][lane]
+  Scalar* positions;     ///< [position][axis][lane]
+  uint32_t* definition;  ///< [position]: the instruction that made it
+};
+
+template <class T, int D>
+HWY_INLINE Point<T, D> load_point(const typename ConstantsOf<T>::Scalar* from) {
+  const size_t n = lanes_of<T>();
+  if constexpr (D == 2) {
+    return {Make<T>::load(from), Make<T>::load(from + n)};
+  } else {
+    return {Make<T>::load(from), Make<T>::load(from + n), Make<T>::load(from + 2 * n)};
+  }
+}
+template <class T>
+HWY_INLINE void store_point(Point<T, 2> p, typename ConstantsOf<T>::Scalar* to) {
+  store(p.x, to);
+  store(p.y, to + lanes_of<T>());
+}
+template <class T>
+HWY_INLINE void store_point(Point<T, 3> p, typename ConstantsOf<T>::Scalar* to) {
+  store(p.x, to);
+  store(p.y, to + lanes_of<T>());
+  store(p.z, to + 2 * lanes_of<T>());
+}
+template <class T>
+HWY_INLINE Point<T, 2> translated(Point<T, 2> p, Constants<T> c) {
+  return {p.x - c[0], p.y - c[1]};
+}
+template <class T>
+HWY_INLINE Point<T, 3> translated(Point<T, 3> p, Constants<T> c) {
+  return {p.x - c[0], p.y - c[1], p.z - c[2]};
+}
+
+template <class Op, int D>
+inline constexpr bool kApplies = Op::kDeclaration.dimension == 0 || Op::kDeclaration.dimension == D;
+
+/// True for ops that are instructions on positions.
+template <class Op>
+inline constexpr bool kMovesPosition = Op::kDeclaration.kind == OpKind::warp ||
+                                       (Op::kDeclaration.kind == OpKind::place && Op::kDeclaration.name == "rigid");
+
+#define THALWEG_CASES_8(CASE, N) \
+  CASE(N) CASE(N + 1) CASE(N + 2) CASE(N + 3) CASE(N + 4) CASE(N + 5) CASE(N + 6) CASE(N + 7)
+#define THALWEG_CASES_64(CASE, N)                                                                           \
+  THALWEG_CASES_8(CASE, N) THALWEG_CASES_8(CASE, N + 8) THALWEG_CASES_8(CASE, N + 16)                       \
+  THALWEG_CASES_8(CASE, N + 24) THALWEG_CASES_8(CASE, N + 32) THALWEG_CASES_8(CASE, N + 40)                 \
+  THALWEG_CASES_8(CASE, N + 48) THALWEG_CASES_8(CASE, N + 56)
+static_assert(kOpCount <= 64, "give the dispatch more cases");
+
+/// The gradient before an op's move of position; only moves are ever asked for.
+template <class Declared, class T, int D>
+HWY_INLINE Point<T, D> pull_through(Point<T, D> p, Constants<T> c, Point<T, D> g) {
+  if constexpr (kMovesPosition<Declared> && kApplies<Declared, D>) {
+    return Declared::pull(p, c, g);
+  } else {
+    HWY_ASSUME(false);
+    return g;
+  }
+}
+
+/// Brings a gradient at position `slot` back to the query point.
+template <class T, int D>
+HWY_INLINE Point<T, D> pull_back(const Machine<T>& m, size_t slot, Point<T, D> g) {
+  while (slot != 0) {
+    const Instruction& made = m.instructions[m.definition[slot]];
+    const Constants<T> c{m.pool + made.constants, made.constant_count};
+    const auto p = load_point<T, D>(m.positions + made.operand * D * lanes_of<T>());
+    switch (made.op) {
+#define THALWEG_CASE(I)                                     \
+  case I:                                                   \
+    g = pull_through<Op<(I < kOpCount ? I : 0)>>(p, c, g); \
+    break;
+      THALWEG_CASES_64(THALWEG_CASE, 0)
+#undef THALWEG_CASE
+    }
+    slot = made.operand;
+  }
+  return g;
+}
+
+// --- modes: what a register holds and how each kind of op acts on it ------------------------------------------------
+
+template <class T_, int D_>
+struct ValueMode {
+  using T = T_;
+  static constexpr int D = D_;
+  static constexpr size_t kComponents = 1;
+  struct Register {
+    T value;
+  };
+
+  template <class Declared>
+  HWY_INLINE Register primitive(const Machine<T>&, const Instruction&, Point<T, D> p, Constants<T> c) const {
+    return {Declared::field(p, c).value};
+  }
+  template <class Declared>
+  HWY_INLINE Register combine(Register a, Register b, Constants<T> c) const {
+    const Field<T, D> fa{a.value, {}};
+    const Field<T, D> fb{b.value, {}};
+    return {Declared::combine(fa, fb, c).value};
+  }
+  template <class Declared>
+  HWY_INLINE Register map(Register a, Constants<T> c) const {
+    return {Declared::map(Field<T, D>{a.value, {}}, c).value};
+  }
+  template <class S>
+  static HWY_INLINE Register load(const S* from) {
+    return {Make<T>::load(from)};
+  }
+  template <class S>
+  static HWY_INLINE void save(Register a, S* to) {
+    store(a.value, to);
+  }
+};
+
+template <class T_, int D_>
+struct GradientMode {
+  using T = T_;
+  static constexpr int D = D_;
+  static constexpr size_t kComponents = 1 + D;
+  using Register = Field<T, D>;
+
+  template <class Declared>
+  HWY_INLINE Register primitive(const Machine<T>& m, const Instruction& in, Point<T, D> p, Constants<T> c) const {
+    Register f = Declared::field(p, c);
+    if (in.operand != 0) f.gradient = pull_back<T, D>(m, in.operand, f.gradient);
+    return f;
+  }
+  template <class Declared>
+  HWY_INLINE Register combine(const Register& a, const Register& b, Constants<T> c) const {
+    return Declared::combine(a, b, c);
+  }
+  template <class Declared>
+  HWY_INLINE Register map(const Register& a, Constants<T> c) const {
+    return Declared::map(a, c);
+  }
+  template <class S>
+  static HWY_INLINE Register load(const S* from) {
+    return {Make<T>::load(from), load_point<T, D>(from + lanes_of<T>())};
+  }
+  template <class S>
+  static HWY_INLINE void save(const Register& a, S* to) {
+    store(a.value, to);
+    store_point(a.gradient, to + lanes_of<T>());
+  }
+};
+
+/// Cells are given by what bounds need of them: the reach (greatest distance from the centre to a point of the cell)
+/// and the least of g . (v - c) over the cell's vertices v for a unit vector g.
+template <class T_, int D_, class Cell>
+struct EnclosureMode {
+  using T = T_;
+  static constexpr int D = D_;
+  static constexpr size_t kComponents = 3;
+  struct Register {
+    T lo, value, hi;
+  };
+
+  Cell cell;
+
+  /// f lies within the reach of its value at the centre (every primitive is 1-Lipschitz). The signed distance of a
+  /// convex set is the greatest of u . p - h(u) over unit u, h its support function: any u gives a lower bound, and
+  /// the gradient at the centre a tight one.
+  template <class Declared>
+  HWY_INLINE Register primitive(const Machine<T>& m, const Instruction& in, Point<T, D> p, Constants<T> c) const {
+    const Field<T, D> f = Declared::field(p, c);
+    const T reach = cell.reach();
+    T lo = f.value - reach;
+    if constexpr (requires { Declared::support(p, c); }) {
+      if ((in.flags & Instruction::kSupport) != 0) {
+        const auto u = f.gradient;
+        const T slope = cell.least_slope(pull_back<T, D>(m, in.operand, u));
+        const T plane = dot(u, p) - Declared::support(u, c) + slope;
+        const auto is_unit = Make<T>::set(0.9) < dot(u, u);
+        lo = select(is_unit, max(lo, plane), lo);
+      }
+    }
+    return {lo, f.value, f.value + reach};
+  }
+  /// Operators are monotone in each operand: the end points of the operands give those of the result.
+  template <class Declared>
+  HWY_INLINE Register combine(const Register& a, const Register& b, Constants<T> c) const {
+    constexpr bool kRising = Declared::kTrend[1] > 0;
+    const auto at = [&](T x, T y) { return Declared::combine(Field<T, D>{x, {}}, Field<T, D>{y, {}}, c).value; };
+    return {at(a.lo, kRising ? b.lo : b.hi), at(a.value, b.value), at(a.hi, kRising ? b.hi : b.lo)};
+  }
+  template <class Declared>
+  HWY_INLINE Register map(const Register& a, Constants<T> c) const {
+    const auto at = [&](T x) { return Declared::map(Field<T, D>{x, {}}, c).value; };
+    if constexpr (Declared::kTrend == 0) {
+      const Interval<T> ends = Declared::enclose(Interval<T>{a.lo, a.hi}, c);
+      return {ends.lo, at(a.value), ends.hi};
+    } else {
+      return {at(a.lo), at(a.value), at(a.hi)};
+    }
+  }
+  template <class S>
+  static HWY_INLINE Register load(const S* from) {
+    const size_t n = lanes_of<T>();
+    return {Make<T>::load(from), Make<T>::load(from + n), Make<T>::load(from + 2 * n)};
+  }
+  template <class S>
+  static HWY_INLINE void save(const Register& a, S* to) {
+    const size_t n = lanes_of<T>();
+    store(a.lo, to);
+    store(a.value, to + n);
+    store(a.hi, to + 2 * n);
+  }
+};
+
+// --- the machine ------------------------------------------------------------------------------------------------------
+
+template <class Declared, class Mode>
+HWY_INLINE void step(const Mode& mode, const Machine<typename Mode::T>& m, const Instruction& in,
+                     typename Mode::Register& acc) {
+  using T = typename Mode::T;
+  constexpr int D = Mode::D;
+  constexpr OpKind kKind = Declared::kDeclaration.kind;
+  const Constants<T> c{m.pool + in.constants, in.constant_count};
+  if constexpr (!kApplies<Declared, D>) {
+    HWY_ASSUME(false);
+  } else if constexpr (kKind == OpKind::primitive) {
+    const auto at = load_point<T, D>(m.positions + in.operand * D * lanes_of<T>());
+    const Constants<T> own{c.pool + D, c.count - D};
+    acc = mode.template primitive<Declared>(m, in, translated(at, c), own);
+  } else if constexpr (kKind == OpKind::combine) {
+    const auto other = Mode::load(m.registers + in.operand * Mode::kComponents * lanes_of<T>());
+    if ((in.flags & Instruction::kSwapped) != 0) {
+      acc = mode.template combine<Declared>(acc, other, c);
+    } else {
+      acc = mode.template combine<Declared>(other, acc, c);
+    }
+  } else if constexpr (kKind == OpKind::map) {
+    acc = mode.template map<Declared>(acc, c);
+  } else if constexpr (kMovesPosition<Declared>) {
+    const auto from = load_point<T, D>(m.positions + in.operand * D * lanes_of<T>());
+    store_point(Declared::map(from, c), m.positions + in.target * D * lanes_of<T>());
+    m.definition[in.target] = static_cast<uint32_t>(&in - m.instructions);
+  }
+}
+
+/// Runs the tape over one chunk whose points are at position 0.
+template <class Mode>
+HWY_INLINE typename Mode::Register run(const Mode& mode, const Machine<typename Mode::T>& m) {
+  using T = typename Mode::T;
+  typename Mode::Register acc{};
+  const Instruction* const end = m.instructions + m.instruction_count;
+  for (const Instruction* in = m.instructions; in != end; ++in) {
+    switch (in->op) {
+#define THALWEG_CASE(I)                                                   \
+  case I:                                                                 \
+    if constexpr (I < kOpCount) {                                         \
+      using Declared = Op<(I < kOpCount ? I : 0)>;                        \
+      step<Declared>(mode, m, *in, acc);                                  \
+      if constexpr (kMovesPosition<Declared>) continue;                   \
+    }                                                                     \
+    break;
+      THALWEG_CASES_64(THALWEG_CASE, 0)
+#undef THALWEG_CASE
+      default:
+        acc = Mode::load(m.registers + in->operand * Mode::kComponents * lanes_of<T>());
+    }
+    if (in->target != Instruction::kNone) {
+      Mode::save(acc, m.registers + in->target * Mode::kComponents * lanes_of<T>());
+    }
+  }
+  return acc;
+}
+
+/// Cuts a scratch block into a machine's memory. `components` is the mode's.
+HWY_INLINE Machine<Pack<kPackWidth>> machine_for(const Tape& tape, float* scratch, size_t components) {
+  constexpr size_t kLanesAtMost = kMostChunkLanes;
+  Machine<Pack<kPackWidth>> m;
+  m.instructions = tape.instructions.data();
+  m.instruction_count = tape.instructions.size();
+  m.pool = tape.constants.data();
+  m.registers = scratch;
+  m.positions = m.registers + static_cast<size_t>(tape.register_count) * components * kLanesAtMost;
+  m.definition = reinterpret_cast<uint32_t*>(m.positions + static_cast<size_t>(tape.position_count) *
+                                                               static_cast<size_t>(tape.dimension) * kLanesAtMost);
+  return m;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace thalweg
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The thalweg authors
+// SPDX-License-Identifier: MIT
+//
+// The entry points of one SIMD target: whole columns through a tape, and each solver for one tile.
+//
+// Columns are structures of arrays of float32. Every column must be allocated up to a multiple of kColumnPadding
+// entries; what lies beyond `count` may be anything and is computed and ignored.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "thalweg/query.h"
+#include "thalweg/tape.h"
+
+namespace thalweg {
+
+/// Vectors of float32 in flight per chunk.
+inline constexpr int kPackWidth = 2;
+/// The widest chunk of any target: kPackWidth vectors of 512 bits.
+inline constexpr std::size_t kMostChunkLanes = kPackWidth * 16;
+inline constexpr std::size_t kColumnPadding = 64;
+[[nodiscard]] constexpr std::size_t padded(std::size_t count) {
+  return (count + kColumnPadding - 1) / kColumnPadding * kColumnPadding;
+}
+
+/// Cells of an enclosure: the reach of each, and either its vertices relative to the centre (simplex: `edges` holds
+/// d + 1 or fewer vertices times d columns, vertex by vertex) or its half extents (box: d columns).
+struct CellColumns {
+  const float* reach = nullptr;
+  const float* edges[9] = {};
+  bool is_box = false;
+};
+
+/// Floats of scratch that any of the evaluating kernels needs for a tape; align it to 64 bytes.
+[[nodiscard]] constexpr std::size_t scratch_floats(const Tape& tape) {
+  const auto registers = static_cast<std::size_t>(tape.register_count);
+  const auto positions = static_cast<std::size_t>(tape.position_count);
+  const auto dimension = static_cast<std::size_t>(tape.dimension);
+  return kMostChunkLanes * (registers * (dimension == 2 ? 3 : 4) + positions * dimension) + positions + kColumnPadding;
+}
+
+using ValueKernel = void (*)(const Tape& tape, const float* const* points, std::size_t count, float* value,
+                             float* scratch);
+using GradientKernel = void (*)(const Tape& tape, const float* const* points, std::size_t count, float* value,
+                                float* const* gradient, float* scratch);
+using EnclosureKernel = void (*)(const Tape& tape, const float* const* centres, const CellColumns& cells,
+                                 std::size_t count, float* lower, float* value, float* scratch);
+
+struct TriangleTile;
+struct CircleTile;
+struct TileScratch;
+using TriangleSolver = void (*)(const TriangleTile& tile, TileScratch& scratch);
+using CircleSolver = void (*)(const CircleTile& tile, TileScratch& scratch);
+
+struct Kernels {
+  ValueKernel value = nullptr;
+  GradientKernel gradient = nullptr;
+  EnclosureKernel enclosure = nullptr;
+  TriangleSolver certify_triangles = nullptr;
+  CircleSolver certify_circles = nullptr;
+};
+
+}  // namespace thalweg

@@ -1,0 +1,289 @@
+// SPDX-FileCopyrightText: The thalweg authors
+// SPDX-License-Identifier: MIT
+//
+// The lane types that the op templates are written over, with one vocabulary:
+//   Pack<W>  W vectors of float32 in flight, of the SIMD target under compilation
+//   Real     one double: the twin of the float32 kernels
+// Included once per SIMD target; everything lives in that target's namespace. Packs are split in halves with names,
+// not arrays: compilers keep those in registers.
+#if defined(THALWEG_KERNELS_LANES_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef THALWEG_KERNELS_LANES_INL
+#undef THALWEG_KERNELS_LANES_INL
+#else
+#define THALWEG_KERNELS_LANES_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <cmath>
+#include <cstddef>
+
+HWY_BEFORE_NAMESPACE();
+namespace thalweg {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using F32 = hn::ScalableTag<float>;
+using V32 = hn::Vec<F32>;
+using M32 = hn::Mask<F32>;
+
+template <int W>
+struct Pack {
+  Pack<W / 2> lo, hi;
+};
+template <>
+struct Pack<1> {
+  V32 v;
+};
+
+template <int W>
+struct PackMask {
+  PackMask<W / 2> lo, hi;
+};
+template <>
+struct PackMask<1> {
+  M32 m;
+};
+
+struct Real {
+  double v;
+};
+
+HWY_INLINE size_t vector_lanes() { return hn::Lanes(F32()); }
+template <int W>
+HWY_INLINE size_t pack_lanes() {
+  return static_cast<size_t>(W) * hn::Lanes(F32());
+}
+
+// --- making and storing -------------------------------------------------------------------------------------------
+
+template <class T>
+struct Make;
+template <>
+struct Make<Real> {
+  static HWY_INLINE Real set(double v) { return {v}; }
+  static HWY_INLINE Real load(const double* p) { return {*p}; }
+};
+template <>
+struct Make<Pack<1>> {
+  static HWY_INLINE Pack<1> set(double v) { return {hn::Set(F32(), static_cast<float>(v))}; }
+  static HWY_INLINE Pack<1> set(float v) { return {hn::Set(F32(), v)}; }
+  static HWY_INLINE Pack<1> load(const float* p) { return {hn::LoadU(F32(), p)}; }
+};
+template <int W>
+struct Make<Pack<W>> {
+  static HWY_INLINE Pack<W> set(double v) {
+    const auto half = Make<Pack<W / 2>>::set(v);
+    return {half, half};
+  }
+  static HWY_INLINE Pack<W> set(float v) {
+    const auto half = Make<Pack<W / 2>>::set(v);
+    return {half, half};
+  }
+  static HWY_INLINE Pack<W> load(const float* p) {
+    return {Make<Pack<W / 2>>::load(p), Make<Pack<W / 2>>::load(p + pack_lanes<W / 2>())};
+  }
+};
+
+HWY_INLINE void store(Real a, double* p) { *p = a.v; }
+HWY_INLINE void store(Pack<1> a, float* p) { hn::StoreU(a.v, F32(), p); }
+template <int W>
+HWY_INLINE void store(Pack<W> a, float* p) {
+  store(a.lo, p);
+  store(a.hi, p + pack_lanes<W / 2>());
+}
+
+// --- arithmetic: each line is one op on Real, on one vector and, by halves, on wider packs ---------------------------
+
+#define THALWEG_LANE_1(NAME, REAL, VECTOR)                    \
+  HWY_INLINE Real NAME(Real a) { return {REAL}; }             \
+  HWY_INLINE Pack<1> NAME(Pack<1> a) { return {VECTOR}; }     \
+  template <int W>                                            \
+  HWY_INLINE Pack<W> NAME(Pack<W> a) {                        \
+    return {NAME(a.lo), NAME(a.hi)};                          \
+  }
+#define THALWEG_LANE_2(NAME, REAL, VECTOR)                           \
+  HWY_INLINE Real NAME(Real a, Real b) { return {REAL}; }            \
+  HWY_INLINE Pack<1> NAME(Pack<1> a, Pack<1> b) { return {VECTOR}; } \
+  template <int W>                                                   \
+  HWY_INLINE Pack<W> NAME(Pack<W> a, Pack<W> b) {                    \
+    return {NAME(a.lo, b.lo), NAME(a.hi, b.hi)};                     \
+  }
+#define THALWEG_LANE_3(NAME, REAL, VECTOR)                                      \
+  HWY_INLINE Real NAME(Real a, Real b, Real c) { return {REAL}; }               \
+  HWY_INLINE Pack<1> NAME(Pack<1> a, Pack<1> b, Pack<1> c) { return {VECTOR}; } \
+  template <int W>                                                              \
+  HWY_INLINE Pack<W> NAME(Pack<W> a, Pack<W> b, Pack<W> c) {                    \
+    return {NAME(a.lo, b.lo, c.lo), NAME(a.hi, b.hi, c.hi)};                    \
+  }
+#define THALWEG_LANE_COMPARE(NAME, REAL, VECTOR)                         \
+  HWY_INLINE bool NAME(Real a, Real b) { return REAL; }                  \
+  HWY_INLINE PackMask<1> NAME(Pack<1> a, Pack<1> b) { return {VECTOR}; } \
+  template <int W>                                                       \
+  HWY_INLINE PackMask<W> NAME(Pack<W> a, Pack<W> b) {                    \
+    return {NAME(a.lo, b.lo), NAME(a.hi, b.hi)};                         \
+  }
+#define THALWEG_LANE_LOGIC(NAME, REAL, VECTOR)                                   \
+  HWY_INLINE bool NAME(bool a, bool b) { return REAL; }                          \
+  HWY_INLINE PackMask<1> NAME(PackMask<1> a, PackMask<1> b) { return {VECTOR}; } \
+  template <int W>                                                               \
+  HWY_INLINE PackMask<W> NAME(PackMask<W> a, PackMask<W> b) {                    \
+    return {NAME(a.lo, b.lo), NAME(a.hi, b.hi)};                                 \
+  }
+
+THALWEG_LANE_1(operator-, -a.v, hn::Neg(a.v))
+THALWEG_LANE_1(abs, std::fabs(a.v), hn::Abs(a.v))
+THALWEG_LANE_1(sqrt, std::sqrt(a.v), hn::Sqrt(a.v))
+THALWEG_LANE_1(floor, std::floor(a.v), hn::Floor(a.v))
+THALWEG_LANE_2(operator+, a.v + b.v, hn::Add(a.v, b.v))
+THALWEG_LANE_2(operator-, a.v - b.v, hn::Sub(a.v, b.v))
+THALWEG_LANE_2(operator*, a.v* b.v, hn::Mul(a.v, b.v))
+THALWEG_LANE_2(operator/, a.v / b.v, hn::Div(a.v, b.v))
+THALWEG_LANE_2(min, a.v < b.v ? a.v : b.v, hn::Min(a.v, b.v))
+THALWEG_LANE_2(max, a.v > b.v ? a.v : b.v, hn::Max(a.v, b.v))
+/// Magnitude of a with the sign of b.
+THALWEG_LANE_2(copysign, std::copysign(a.v, b.v), hn::CopySign(a.v, b.v))
+/// a * b + c, c - a * b and a * b - c, fused where the target can.
+THALWEG_LANE_3(mul_add, a.v* b.v + c.v, hn::MulAdd(a.v, b.v, c.v))
+THALWEG_LANE_3(neg_mul_add, c.v - a.v * b.v, hn::NegMulAdd(a.v, b.v, c.v))
+THALWEG_LANE_3(mul_sub, a.v* b.v - c.v, hn::MulSub(a.v, b.v, c.v))
+THALWEG_LANE_COMPARE(operator<, a.v < b.v, hn::Lt(a.v, b.v))
+THALWEG_LANE_COMPARE(operator<=, a.v <= b.v, hn::Le(a.v, b.v))
+THALWEG_LANE_COMPARE(operator==, a.v == b.v, hn::Eq(a.v, b.v))
+THALWEG_LANE_LOGIC(both, a&& b, hn::And(a.m, b.m))
+THALWEG_LANE_LOGIC(either, a || b, hn::Or(a.m, b.m))
+THALWEG_LANE_LOGIC(differ, a != b, hn::Xor(a.m, b.m))
+
+#undef THALWEG_LANE_1
+#undef THALWEG_LANE_2
+#undef THALWEG_LANE_3
+#undef THALWEG_LANE_COMPARE
+#undef THALWEG_LANE_LOGIC
+
+template <class T>
+HWY_INLINE auto operator>(T a, T b) -> decltype(b < a) {
+  return b < a;
+}
+template <class T>
+HWY_INLINE auto operator>=(T a, T b) -> decltype(b <= a) {
+  return b <= a;
+}
+
+HWY_INLINE Real select(bool m, Real yes, Real no) { return m ? yes : no; }
+HWY_INLINE Pack<1> select(PackMask<1> m, Pack<1> yes, Pack<1> no) { return {hn::IfThenElse(m.m, yes.v, no.v)}; }
+template <int W>
+HWY_INLINE Pack<W> select(PackMask<W> m, Pack<W> yes, Pack<W> no) {
+  return {select(m.lo, yes.lo, no.lo), select(m.hi, yes.hi, no.hi)};
+}
+
+// --- points and fields ------------------------------------------------------------------------------------------------
+
+template <class T, int D>
+struct Point;
+template <class T>
+struct Point<T, 2> {
+  T x, y;
+};
+template <class T>
+struct Point<T, 3> {
+  T x, y, z;
+};
+
+/// The value of a field and its gradient. Templates fill both; where only the value is used the compiler drops the rest.
+template <class T, int D>
+struct Field {
+  T value;
+  Point<T, D> gradient;
+};
+
+/// A node's derived constants, broadcast to the lanes.
+template <class T>
+struct ConstantsOf {
+  using Scalar = float;
+};
+template <>
+struct ConstantsOf<Real> {
+  using Scalar = double;
+};
+template <class T>
+struct Constants {
+  using Scalar = typename ConstantsOf<T>::Scalar;
+  const Scalar* pool;
+  size_t count;
+  HWY_INLINE T operator[](size_t i) const { return Make<T>::set(pool[i]); }
+};
+
+template <class T>
+HWY_INLINE T zero() {
+  return Make<T>::set(0.0);
+}
+template <class T>
+HWY_INLINE T one() {
+  return Make<T>::set(1.0);
+}
+template <class T>
+HWY_INLINE T clamp(T a, T least, T most) {
+  return min(max(a, least), most);
+}
+template <class T>
+HWY_INLINE T dot(Point<T, 2> a, Point<T, 2> b) {
+  return mul_add(a.x, b.x, a.y * b.y);
+}
+template <class T>
+HWY_INLINE T dot(Point<T, 3> a, Point<T, 3> b) {
+  return mul_add(a.x, b.x, mul_add(a.y, b.y, a.z * b.z));
+}
+template <class T, int D>
+HWY_INLINE T length(Point<T, D> a) {
+  return sqrt(dot(a, a));
+}
+template <class T>
+HWY_INLINE Point<T, 2> scaled(Point<T, 2> a, T s) {
+  return {a.x * s, a.y * s};
+}
+template <class T>
+HWY_INLINE Point<T, 3> scaled(Point<T, 3> a, T s) {
+  return {a.x * s, a.y * s, a.z * s};
+}
+template <class T>
+HWY_INLINE Point<T, 2> operator+(Point<T, 2> a, Point<T, 2> b) {
+  return {a.x + b.x, a.y + b.y};
+}
+template <class T>
+HWY_INLINE Point<T, 3> operator+(Point<T, 3> a, Point<T, 3> b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class T>
+HWY_INLINE Point<T, 2> operator-(Point<T, 2> a, Point<T, 2> b) {
+  return {a.x - b.x, a.y - b.y};
+}
+template <class T>
+HWY_INLINE Point<T, 3> operator-(Point<T, 3> a, Point<T, 3> b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class T, class M>
+HWY_INLINE Point<T, 2> select(M m, Point<T, 2> yes, Point<T, 2> no) {
+  return {select(m, yes.x, no.x), select(m, yes.y, no.y)};
+}
+template <class T, class M>
+HWY_INLINE Point<T, 3> select(M m, Point<T, 3> yes, Point<T, 3> no) {
+  return {select(m, yes.x, no.x), select(m, yes.y, no.y), select(m, yes.z, no.z)};
+}
+
+/// 1 / a, and 0 where a is 0: a length's reciprocal that never gives NaN.
+template <class T>
+HWY_INLINE T reciprocal_or_zero(T a) {
+  return select(zero<T>() < a, one<T>() / a, zero<T>());
+}
+
+/// sign(a) as +-1, never 0.
+template <class T>
+HWY_INLINE T sign_of(T a) {
+  return copysign(one<T>(), a);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace thalweg
+HWY_AFTER_NAMESPACE();
+
+#endif

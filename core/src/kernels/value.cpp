@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The thalweg authors
+// SPDX-License-Identifier: MIT
+//
+// f over columns of points.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/value.cpp"
+#include <hwy/foreach_target.h>
+// foreach_target must come first
+#include <hwy/highway.h>
+
+#include "kernels/interpreter.inl"
+
+HWY_BEFORE_NAMESPACE();
+namespace thalweg {
+namespace HWY_NAMESPACE {
+
+template <int D>
+void value_of(const Tape& tape, const float* const* points, size_t count, float* value, float* scratch) {
+  using T = Pack<kPackWidth>;
+  const Machine<T> m = machine_for(tape, scratch, 1);
+  const size_t lanes = lanes_of<T>();
+  for (size_t i = 0; i < count; i += lanes) {
+    for (int axis = 0; axis < D; ++axis) store(Make<T>::load(points[axis] + i), m.positions + axis * lanes);
+    store(run(ValueMode<T, D>{}, m).value, value + i);
+  }
+}
+
+void value_kernel(const Tape& tape, const float* const* points, size_t count, float* value, float* scratch) {
+  tape.dimension == 2 ? value_of<2>(tape, points, count, value, scratch)
+                      : value_of<3>(tape, points, count, value, scratch);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace thalweg
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "kernels/dispatch.h"
+#include "kernels/entries.h"
+namespace thalweg {
+HWY_EXPORT(value_kernel);
+ValueKernel value_entry(std::int64_t target) { return THALWEG_ENTRY_OF(value_kernel, target); }
+}  // namespace thalweg
+#endif

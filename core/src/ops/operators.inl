@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: The thalweg authors
+// SPDX-License-Identifier: MIT
+//
+// Operators on fields. Every combining op is monotone in each operand (kTrend), so an enclosure of the operands gives
+// an enclosure of the result from its end points. At a tie of min or max the first operand gives the gradient.
+// Smooth minima follow Inigo Quilez, "smooth minimum" (quadratic polynomial, normalised k).
+// Included by all.inl once per SIMD target.
+
+template <class T, int D>
+HWY_INLINE Field<T, D> lesser(const Field<T, D>& a, const Field<T, D>& b) {
+  return {min(a.value, b.value), select(b.value < a.value, b.gradient, a.gradient)};
+}
+template <class T, int D>
+HWY_INLINE Field<T, D> negated(const Field<T, D>& a) {
+  return {-a.value, scaled(a.gradient, -one<T>())};
+}
+
+/// Constants: 4k and 1 / 4k, or 0 and 0 for the hard minimum.
+inline void derive_smoothness(Numbers p, Constants64& c) {
+  const double width = 4 * p[0];
+  c = {width, width < kSmallest ? 0.0 : 1.0 / width};
+}
+
+/// min(a, b) - h^2 width / 4 with h = max(width - |a - b|, 0) / width. The blend's weight of the greater operand is
+/// h / 2, so the gradient is a convex combination: no Lipschitz constant grows.
+template <class T, int D>
+HWY_INLINE Field<T, D> smooth_lesser(const Field<T, D>& a, const Field<T, D>& b, Constants<T> c) {
+  const T h = max(c[0] - abs(a.value - b.value), zero<T>()) * c[1];
+  const T value = neg_mul_add(h * h, c[0] * Make<T>::set(0.25), min(a.value, b.value));
+  const T weight = h * Make<T>::set(0.5);
+  const auto b_less = b.value < a.value;
+  const Point<T, D> least = select(b_less, b.gradient, a.gradient);
+  const Point<T, D> other = select(b_less, a.gradient, b.gradient);
+  return {value, least + scaled(other - least, weight)};
+}
+
+inline constexpr std::string_view kSmoothKinds = "quadratic";
+
+#define THALWEG_SMOOTH_PARAMETERS                                                                                  \
+  static constexpr OpParameter kParameters[] = {                                                                   \
+      size_or_zero("k", "how far the blend departs from the hard operator, at most"),                              \
+      OpParameter {                                                                                                \
+    .name = "kind", .quantity = Quantity::choice, .meaning = "the polynomial of the blend", .choices = kSmoothKinds, \
+    .optional = true                                                                                               \
+      }                                                                                                            \
+  }
+
+THALWEG_OP {
+  static constexpr Declaration kDeclaration{
+      .name = "union", .kind = OpKind::combine, .exactness = "exact outside; a bound inside", .rounding = 0};
+  static constexpr std::array<OpParameter, 0> kParameters{};
+  static constexpr int kTrend[2] = {1, 1};
+  static constexpr bool kIdempotent = true;
+  static constexpr BoundsRule kBounds = BoundsRule::hull;
+  static double widening(Numbers) { return 0; }
+  static JoinedFacts join(const Facts& a, const Facts& b, Numbers) {
+    return {.outside = weaker(a.outside, b.outside),
+            .inside = weaker(Exactness::lower_bound, weaker(a.inside, b.inside)),
+            .is_unsigned = a.is_unsigned && b.is_unsigned};
+  }
+  static void derive(Numbers, Constants64 & c) { c.clear(); }
+  template <class T, int D>
+  static HWY_INLINE Field<T, D> combine(const Field<T, D>& a, const Field<T, D>& b, Constants<T>) {
+    return lesser(a, b);
+  }
+};
+
+THALWEG_OP {
+  static constexpr Declaration kDeclaration{
+      .name = "intersection", .kind = OpKind::combine, .exactness = "exact inside; a bound outside", .rounding = 0};
+  static constexpr std::array<OpParameter, 0> kParameters{};
+  static constexpr int kTrend[2] = {1, 1};
+  static constexpr bool kIdempotent = true;
+  static constexpr BoundsRule kBounds = BoundsRule::meet;
+  static double widening(Numbers) { return 0; }
+  static JoinedFacts join(const Facts& a, const Facts& b, Numbers) {
+    return {.outside = weaker(Exactness::lower_bound, weaker(a.outside, b.outside)),
+            .inside = weaker(a.inside, b.inside),
+            .convex = a.convex && b.convex,
+            .is_unsigned = a.is_unsigned || b.is_unsigned};
+  }
+  static void derive(Numbers, Constants64 & c) { c.clear(); }
+  template <class T, int D>
+  static HWY_INLINE Field<T, D> combine(const Field<T, D>& a, const Field<T, D>& b, Constants<T>) {
+    return {max(a.value, b.value), select(a.value < b.value, b.gradient, a.gradient)};
+  }
+};
+
+THALWEG_OP {
+  static constexpr Declaration kDeclaration{.name = "subtraction",
+                                            .kind = OpKind::combine,
+                                            .exactness = "exact inside; a bound outside",
+                                            .note = "the first minus the rest",
+                                            .rounding = 0};
+  static constexpr std::array<OpParameter, 0> kParameters{};
+  static constexpr int kTrend[2] = {1, -1};
+  static constexpr bool kIdempotent = false;
+  static constexpr BoundsRule kBounds = BoundsRule::first;
+  static double widening(Numbers) { return 0; }
+  static JoinedFacts join(const Facts& a, const Facts& b, Numbers) {
+    return {.outside = weaker(Exactness::lower_bound, weaker(a.outside, b.inside)),
+            .inside = weaker(a.inside, b.outside),
+            .is_unsigned = a.is_unsigned};
+  }
+  static void derive(Numbers, Constants64 & c) { c.clear(); }
+  template <class T, int D>
+  static HWY_INLINE Field<T, D> combine(const Field<T, D>& a, const Field<T, D>& b, Constants<T>) {
+    return {max(a.value, -b.value), select(a.value < -b.value, scaled(b.gradient, -one<T>()), a.gradient)};
+  }
+};
+
+THALWEG_OP {
+  static constexpr Declaration kDeclaration{
+      .name = "smooth_union", .kind = OpKind::combine, .exactness = "a bound", .note = "k = 0: union", .rounding = 4};
+  THALWEG_SMOOTH_PARAMETERS;
+  static constexpr int kTrend[2] = {1, 1};
+  static constexpr bool kIdempotent = false;
+  static constexpr BoundsRule kBounds = BoundsRule::hull;
+  static double widening(Numbers p) { return p[0]; }
+  static JoinedFacts join(const Facts& a, const Facts& b, Numbers) {
+    return {.outside = weaker(Exactness::lower_bound, weaker(a.outside, b.outside)),
+            .inside = weaker(Exactness::lower_bound, weaker(a.inside, b.inside))};
+  }
+  static void derive(Numbers p, Constants64 & c) { derive_smoothness(p, c); }
+  template <class T, int D>
+  static HWY_INLINE Field<T, D> combine(const Field<T, D>& a, const Field<T, D>& b, Constants<T> c) {
+    return smooth_lesser(a, b, c);
+  }
+};
+
+THALWEG_OP {
+  static constexpr Declaration kDeclaration{.name = "smooth_intersection",
+                                            .kind = OpKind::combine,
+                                            .exactness = "a bound",
+                                            .note = "k = 0: intersection",
+                                            .rounding = 4};
+  THALWEG_SMOOTH_PARAMETERS;
+  static constexpr int kTrend[2] = {1, 1};
+  static constexpr bool kIdempotent = false;
+  static constexpr BoundsRule kBounds = BoundsRule::meet;
+  static double widening(Numbers) { return 0; }
+  static JoinedFacts join(const Facts& a, const Facts& b, Numbers) {
+    return {.outside = weaker(Exactness::lower_bound, weaker(a.outside, b.outside)),
+            .inside = weaker(Exactness::lower_bound, weaker(a.inside, b.inside)),
+            .convex = a.convex && b.convex,
+            .is_unsigned = a.is_unsigned || b.is_unsigned};
+  }
+  static void derive(Numbers p, Constants64 & c) { derive_smoothness(p, c); }
+  template <class T, int D>
+  static HWY_INLINE Field<T, D> combine(const Field<T, D>& a, const Field<T, D>& b, Constants<T> c) {
+    return negated(smooth_lesser(negated(a), negated(b), c));
+  }
+};
+
+THALWEG_OP {
+  static constexpr Declaration kDeclaration{.name = "smooth_subtraction",
+                                            .kind = OpKind::combine,
+                                            .exactness = "a bound",
+                                            .note = "the first minus the rest; k = 0: subtraction",
+                                            .rounding = 4};
+  THALWEG_SMOOTH_PARAMETERS;
+  static constexpr int kTrend[2] = {1, -1};
+  static constexpr bool kIdempotent = false;
+  static constexpr BoundsRule kBounds = BoundsRule::first;
+  static double widening(Numbers) { return 0; }
+  static JoinedFacts join(const Facts& a, const Facts& b, Numbers) {
+    return {.outside = weaker(Exactness::lower_bound, weaker(a.outside, b.inside)),
+            .inside = weaker(Exactness::lower_bound, weaker(a.inside, b.outside)),
+            .is_unsigned = a.is_unsigned};
+  }
+  static void derive(Numbers p, Constants64 & c) { derive_smoothness(p, c); }
+  template <class T, int D>
+  static HWY_INLINE Field<T, D> combine(const Field<T, D>& a, const Field<T, D>& b, Constants<T> c) {
+    return negated(smooth_lesser(negated(a), b, c));
+  }
+};
+#undef THALWEG_SMOOTH_PARAMETERS
+
+THALWEG_OP {
+  static constexpr Declaration kDeclaration{.name = "round",
+                                            .kind = OpKind::map,
+                                            .exactness = "exact outside of an exact field; inside too if convex",
+                                            .note = "f - radius",
+                                            .rounding = 1};
+  static constexpr OpParameter kParameters[] = {size_or_zero("radius", "how far the surface is moved out")};
+  static constexpr int kTrend = 1;
+  static double operand_level(double level, Numbers p) { return level + p[0]; }
+  static JoinedFacts facts(const Facts& a, Numbers p) {
+    return {.outside = a.outside,
+            .inside = a.convex || p[0] == 0 ? a.inside : weaker(Exactness::lower_bound, a.inside),
+            .convex = a.convex,
+            .is_unsigned = a.is_unsigned && p[0] == 0};
+  }
+  static void derive(Numbers p, Constants64 & c) { c = {p[0]}; }
+  template <class T, int D>
+  static HWY_INLINE Field<T, D> map(const Field<T, D>& a, Constants<T> c) {
+    return {a.value - c[0], a.gradient};
+  }
+};
+
+THALWEG_OP {
+  static constexpr Declaration kDeclaration{.name = "onion",
+                                            .kind = OpKind::map,
+                                            .exactness = "exact outside of an exact field; a bound inside",
+                                            .note = "abs(f) - thickness",
+                                            .rounding = 1};
+  static constexpr OpParameter kParameters[] = {size("thickness", "half of the wall's width")};
+  static constexpr int kTrend = 0;
+  static double operand_level(double level, Numbers p) { return level + p[0]; }
+  static JoinedFacts facts(const Facts& a, Numbers) {
+    const auto worst = weaker(a.outside, a.inside);
+    return {.outside = worst,
+            .inside = a.is_unsigned && a.convex ? worst : weaker(Exactness::lower_bound, worst),
+            .convex = a.is_unsigned && a.convex};
+  }
+  static void derive(Numbers p, Constants64 & c) { c = {p[0]}; }
+  template <class T, int D>
+  static HWY_INLINE Field<T, D> map(const Field<T, D>& a, Constants<T> c) {
+    return {abs(a.value) - c[0], scaled(a.gradient, sign_of(a.value))};
+  }
+  /// abs over an interval: its least value is 0 when the interval holds 0.
+  template <class T>
+  static HWY_INLINE Interval<T> enclose(const Interval<T>& a, Constants<T> c) {
+    return {max(max(a.lo, -a.hi), zero<T>()) - c[0], max(-a.lo, a.hi) - c[0]};
+  }
+};

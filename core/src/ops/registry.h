@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The thalweg authors
+// SPDX-License-Identifier: MIT
+//
+// The declarations of all ops as run-time rows: what the shape, parser and compiler stages ask of an op.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "ops/declaration.h"
+
+namespace thalweg::ops {
+
+/// One op. Function pointers that do not apply to its kind are null.
+struct Entry {
+  OpRow row;
+  bool absorbs_rotation = false;
+  bool has_support = false;
+  std::optional<Complaint> (*check)(Numbers) = nullptr;
+  void (*derive)(Numbers, Constants64&) = nullptr;
+
+  PrimitiveFacts (*primitive_facts)(Numbers) = nullptr;
+  Bounds (*primitive_bounds)(Numbers) = nullptr;
+
+  JoinedFacts (*join)(const Facts&, const Facts&, Numbers) = nullptr;
+  BoundsRule bounds_rule = BoundsRule::hull;
+  double (*widening)(Numbers) = nullptr;
+  bool idempotent = false;  ///< op(a, a) = a
+
+  JoinedFacts (*operand_facts)(const Facts&, Numbers) = nullptr;  ///< map and warp
+  double (*operand_level)(double, Numbers) = nullptr;             ///< map
+
+  Similarity (*similarity)(Numbers) = nullptr;
+  void (*derive_placement)(const Similarity&, Constants64&) = nullptr;
+
+  Bounds (*preimage)(Bounds, Numbers) = nullptr;
+  double stretch = 1;  ///< Lipschitz constant of a warp
+};
+
+[[nodiscard]] std::span<const Entry> registry();
+
+/// How many numbers the parameters of a row flatten to; a list counts as none.
+[[nodiscard]] std::size_t number_count(const OpRow& row);
+
+/// Rows with this name that may stand in a scene of this dimension, in the order of declaration.
+[[nodiscard]] std::vector<int> find_ops(std::string_view name, int dimension);
+
+/// The op `rigid` of that dimension: the instruction for a placement that a primitive cannot absorb.
+[[nodiscard]] int rigid_op(int dimension);
+
+}  // namespace thalweg::ops

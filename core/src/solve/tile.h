@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The thalweg authors
+// SPDX-License-Identifier: MIT
+//
+// One tile of collision queries: what a solver reads and writes. A tile is solved by one thread from start to end.
+#pragma once
+
+#include <vector>
+
+#include "kernels/kernels.h"
+#include "kernels/twin.h"
+#include "solve/arena.h"
+#include "thalweg/query.h"
+
+namespace thalweg {
+
+/// Options with every default filled in.
+struct SolveLimits {
+  Goal goal = Goal::verdict;
+  Method method = Method::certified;
+  Gradient gradient = Gradient::autodiff;
+  std::uint32_t starts = 1;
+  std::uint32_t iterations = 1;
+  std::uint32_t budget = 4096;
+  double tolerance = 1e-4;
+  Affine slack;    ///< of a float32 evaluation in a search: rounding of values, centres and bounds
+  Affine slack64;  ///< the same in double
+};
+
+struct QueryTile {
+  const Tape* tape = nullptr;
+  const Kernels* kernels = nullptr;
+  const SolveLimits* limits = nullptr;
+  const float* rows = nullptr;  ///< the tile's first row
+  std::size_t count = 0;
+  CollideColumns columns;  ///< already moved to the tile's first row
+};
+struct TriangleTile : QueryTile {};
+struct CircleTile : QueryTile {};
+
+/// One open piece of a query's region, in the coordinates of its domain: a triangle's corner (u, v) and signed size in
+/// barycentric units, or a box's centre (u, v, w) and half size in radii.
+struct OpenCell {
+  std::uint32_t query;  ///< row of the tile
+  std::uint32_t level;  ///< how many splits made it
+  float u, v, w;
+  float size;
+  float lower;  ///< proven lower bound of f over it
+};
+
+/// A worker's memory, reused from tile to tile.
+struct TileScratch {
+  explicit TileScratch(const Tape& tape) : twin(tape) {}
+  Arena arena;
+  Arena probes;  ///< of one gradient evaluation
+  Twin twin;
+  std::vector<OpenCell> waiting;  ///< cells that the current wave cannot hold
+  struct HeapCell {
+    double lo, u, v, w, size;
+  };
+  std::vector<HeapCell> heap;  ///< of the search in double
+};
+
+
+}  // namespace thalweg

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The thalweg authors
+// SPDX-License-Identifier: MIT
+//
+// Batch queries: millions of points, triangles or circles against one tape, cut into tiles that run on all cores.
+// Results are the same bits for every number of threads, tile size and SIMD target with fused multiply-add.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+#include "thalweg/query.h"
+#include "thalweg/simd.h"
+#include "thalweg/tape.h"
+
+namespace thalweg {
+
+/// How a batch runs; never what it answers.
+struct Execution {
+  int threads = 0;                 ///< 0: every core of the caller's arena; 1: the calling thread alone, no pool
+  std::size_t tile = 0;            ///< queries per tile; 0: chosen
+  const Target* target = nullptr;  ///< null: default_target()
+  std::atomic<std::size_t>* done = nullptr;        ///< when set, counts finished rows, for progress
+  const std::atomic<bool>* cancelled = nullptr;    ///< when set and true, tiles not yet begun are left out
+};
+
+/// Totals over a batch.
+struct Summary {
+  std::size_t rows = 0;
+  std::size_t by_status[5] = {};  ///< separated, overlapping, touching, undecided, bad rows
+  std::uint64_t evaluations = 0;
+  bool cancelled = false;
+};
+
+/// f at N points, rows (N,d) in C order; `gradient` (N,d) and `value` (N) may be null. A bad row gives NaN.
+/// Returns how many rows were bad.
+std::size_t evaluate(const Tape& tape, const float* points, std::size_t count, float* value, float* gradient,
+                     Gradient strategy = Gradient::autodiff, const Execution& execution = {});
+
+/// Triangles against the tape's shape. Refuses options that the method or the tape cannot honour.
+[[nodiscard]] Result<Summary> collide_triangles(const Tape& tape, Queries triangles, const CollideOptions& options,
+                                                const CollideColumns& columns, const Execution& execution = {});
+
+/// Circles (2D) or spheres (3D) against the tape's shape.
+[[nodiscard]] Result<Summary> collide_circles(const Tape& tape, Queries circles, const CollideOptions& options,
+                                              const CollideColumns& columns, const Execution& execution = {});
+
+/// The tolerance that stands for CollideOptions::tolerance = 0.
+[[nodiscard]] double default_tolerance(const Tape& tape);
+
+}  // namespace thalweg

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The thalweg authors
+// SPDX-License-Identifier: MIT
+//
+// The caller's arena is used as it is; a thread limit makes an arena of its own inside. One thread runs on the caller
+// without touching the pool.
+#include "schedule.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+namespace thalweg {
+namespace {
+
+bool run_tiles(TileTask& task, std::size_t begin, std::size_t end, std::size_t worker, const Execution& execution) {
+  if (execution.cancelled != nullptr && execution.cancelled->load(std::memory_order_relaxed)) return false;
+  task.run(begin, end, worker);
+  if (execution.done != nullptr) execution.done->fetch_add(end - begin, std::memory_order_relaxed);
+  return true;
+}
+
+bool run_in_arena(TileTask& task, std::size_t count, std::size_t tile, const Execution& execution) {
+  std::atomic<bool> complete{true};
+  const std::size_t tiles = (count + tile - 1) / tile;
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, tiles, 1),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        const auto worker = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+          const std::size_t begin = i * tile;
+          if (!run_tiles(task, begin, std::min(begin + tile, count), worker, execution)) complete = false;
+        }
+      },
+      tbb::auto_partitioner());
+  return complete;
+}
+
+}  // namespace
+
+std::size_t worker_count(const Execution& execution) {
+  if (execution.threads == 1) return 1;
+  const int most = execution.threads == 0 ? tbb::this_task_arena::max_concurrency() : execution.threads;
+  return static_cast<std::size_t>(std::max(most, 1));
+}
+
+bool schedule(TileTask& task, std::size_t count, std::size_t tile, const Execution& execution) {
+  if (execution.threads == 1 || count <= tile) {
+    bool complete = true;
+    for (std::size_t begin = 0; begin < count; begin += tile) {
+      complete = run_tiles(task, begin, std::min(begin + tile, count), 0, execution) && complete;
+    }
+    return complete;
+  }
+  if (execution.threads == 0) return run_in_arena(task, count, tile, execution);
+  tbb::task_arena arena(execution.threads);
+  return arena.execute([&] { return run_in_arena(task, count, tile, execution); });
+}
+
+}  // namespace thalweg

@@ -1,0 +1,226 @@
+# SPDX-FileCopyrightText: The thalweg authors
+# SPDX-License-Identifier: MIT
+"""`thalweg collide`: every column with its type and shape, verdicts that are plain to see, and bad rows."""
+
+import json
+import math
+import random
+import unittest
+
+import arrays
+from cli_case import THESIS, CliCase
+
+SEPARATED, OVERLAPPING, TOUCHING, UNDECIDED, BAD_ROW = 0, 1, 2, 3, 255
+
+COLUMNS = {
+    "status": ("|u1", ()),
+    "value": ("<f4", ()),
+    "lower": ("<f4", ()),
+    "converged": ("|u1", ()),
+    "point": ("<f4", ("d",)),
+    "normal": ("<f4", ("d",)),
+    "barycentric": ("<f4", (3,)),
+    "claimed": ("|u1", ()),
+    "starts": ("<u4", ()),
+    "iterations": ("<u4", ()),
+    "evaluations": ("<u4", ()),
+    "ambiguous": ("|u1", ()),
+}
+
+# Against the circle of radius 2 about the origin.
+TRIANGLES = [
+    (5, 5, 6, 5, 5, 6),  # far away
+    (-1, -1, 1, -1, 0, 1),  # wholly inside
+    (1, 0, 4, -1, 4, 1),  # one corner inside
+    (-9, -9, 9, -9, 0, 20),  # swallows the circle
+    (0, 0, 0, 0, 0, 0),  # a point
+    (2.5, -4, 2.5, 4, 2.5, 0),  # a segment that passes by
+]
+VERDICTS = [SEPARATED, OVERLAPPING, OVERLAPPING, OVERLAPPING, OVERLAPPING, SEPARATED]
+
+
+class CollideCase(CliCase):
+    def collide(self, *arguments: str, scene: str = "circle.json") -> dict[str, arrays.Array]:
+        self.succeed("collide", scene, *arguments, "-o", "out.npz")
+        return self.result("out.npz")
+
+    def save_triangles(self, triangles: list, dimension: int = 2) -> None:
+        numbers = [number for triangle in triangles for number in triangle]
+        self.save("triangles.npy", numbers, (len(triangles), 3, dimension))
+
+    def assert_columns(self, result: dict[str, arrays.Array], count: int, dimension: int, triangles: bool) -> None:
+        expected = {
+            name: (descr, (count, *(dimension if length == "d" else length for length in inner)))
+            for name, (descr, inner) in COLUMNS.items()
+            if triangles or name != "barycentric"
+        }
+        self.assertEqual(expected, {name: (array.descr, array.shape) for name, array in result.items()})
+
+
+class Triangles(CollideCase):
+    def setUp(self):
+        super().setUp()
+        self.save_triangles(TRIANGLES)
+
+    def test_verdicts_and_columns_of_the_plane(self):
+        result = self.collide("--triangles", "triangles.npy")
+        self.assert_columns(result, len(TRIANGLES), 2, triangles=True)
+        self.assertEqual(VERDICTS, result["status"].numbers)
+
+    def test_bounds_points_and_normals_fit_together(self):
+        result = self.collide("--triangles", "triangles.npy", "--goal", "deepest")
+        for row, triangle in enumerate(TRIANGLES):
+            with self.subTest(row=row):
+                x, y = result["point"].rows()[row]
+                value, lower = result["value"].numbers[row], result["lower"].numbers[row]
+                self.assertLessEqual(lower, value + 1e-5)
+                self.assertAlmostEqual(math.hypot(x, y) - 2, value, delta=1e-4)
+                self.assertAlmostEqual(1, math.hypot(*result["normal"].rows()[row]), delta=1e-5)
+                weights = result["barycentric"].rows()[row]
+                self.assertAlmostEqual(1, sum(weights), delta=1e-5)
+                self.assertAlmostEqual(x, sum(w * triangle[2 * i] for i, w in enumerate(weights)), delta=1e-4)
+                self.assertAlmostEqual(y, sum(w * triangle[2 * i + 1] for i, w in enumerate(weights)), delta=1e-4)
+
+    def test_the_deepest_point_is_found(self):
+        self.save_triangles([(1, -1, 1, 1, 5, 0), (3, -1, 3, 1, 5, 0)])
+        result = self.collide("--triangles", "triangles.npy", "--goal", "deepest", "--tolerance", "1e-3")
+        self.assertAlmostEqual(-1, result["value"].numbers[0], delta=2e-3)
+        self.assertAlmostEqual(1, result["value"].numbers[1], delta=2e-3)
+        self.assertEqual([1, 1], result["converged"].numbers)
+
+    def test_a_tangent_triangle_touches(self):
+        self.save_triangles([(2, -1, 2, 1, 5, 0)])
+        result = self.collide("--triangles", "triangles.npy")
+        self.assertEqual([TOUCHING], result["status"].numbers)
+
+    def test_columns_of_space(self):
+        self.save_triangles([(0, 0, 0, 5, 0, 0, 0, 5, 0), (9, 0, 0, 5, 9, 0, 0, 5, 9)], dimension=3)
+        result = self.collide("--triangles", "triangles.npy", scene="sphere.json")
+        self.assert_columns(result, 2, 3, triangles=True)
+        self.assertEqual([OVERLAPPING, SEPARATED], result["status"].numbers)
+
+    def test_no_triangles_give_empty_columns(self):
+        self.save("triangles.npy", [], (0, 3, 2))
+        done = self.succeed("collide", "circle.json", "--triangles", "triangles.npy", "-o", "out.npz", "--json")
+        self.assert_columns(self.result("out.npz"), 0, 2, triangles=True)
+        self.assertEqual(0, json.loads(done.stdout)["rows"])
+
+    def test_a_bad_row_is_marked_and_the_others_are_answered(self):
+        bad = [(math.nan, 0, 1, 0, 0, 1), (0, math.inf, 1, 0, 0, 1), (0, 0, 2e15, 0, 0, 1)]
+        self.save_triangles([TRIANGLES[0], *bad, TRIANGLES[1]])
+        done = self.succeed("collide", "circle.json", "--triangles", "triangles.npy", "-o", "out.npz", "--json")
+        result = self.result("out.npz")
+        self.assertEqual([SEPARATED, BAD_ROW, BAD_ROW, BAD_ROW, OVERLAPPING], result["status"].numbers)
+        for name in ("value", "lower", "point", "normal", "barycentric"):
+            for row in (1, 2, 3):
+                row_numbers = result[name].rows()[row]
+                self.assertTrue(all(math.isnan(number) for number in row_numbers), (name, row_numbers))
+        report = json.loads(done.stdout)
+        self.assertEqual((5, 3), (report["rows"], report["bad_rows"]))
+
+    def test_the_report_counts_what_the_columns_hold(self):
+        done = self.succeed("collide", "circle.json", "--triangles", "triangles.npy", "-o", "out.npz", "--json")
+        report, result = json.loads(done.stdout), self.result("out.npz")
+        self.assertEqual(
+            {"separated": 2, "overlapping": 4, "touching": 0, "undecided": 0, "bad_row": 0}, report["status"]
+        )
+        self.assertEqual(sum(result["evaluations"].numbers), report["evaluations"])
+        self.assertEqual("certified", report["method"])
+        self.assertGreater(report["elapsed_seconds"], 0)
+
+    def test_the_summary_is_on_stdout_and_quiet_silences_it(self):
+        arguments = ("collide", "circle.json", "--triangles", "triangles.npy", "-o", "out.npz")
+        self.assertIn(b"overlapping", self.succeed(*arguments).stdout)
+        done = self.succeed(*arguments, "--quiet")
+        self.assertEqual((b"", b""), (done.stdout, done.stderr))
+
+    def test_stdin_and_stdout_carry_arrays(self):
+        triangles = (self.folder / "triangles.npy").read_bytes()
+        done = self.succeed("collide", "circle.json", "--triangles", "-", "-o", "-", stdin=triangles)
+        self.assertEqual(VERDICTS, arrays.parse_npz(done.stdout)["status"].numbers)
+        self.assertIn(b"overlapping", done.stderr)
+
+    def test_meshes_are_triangles(self):
+        obj = "".join(f"v {t[2 * i]} {t[2 * i + 1]} 0\n" for t in TRIANGLES for i in range(3))
+        obj += "".join(f"f {3 * i + 1} {3 * i + 2} {3 * i + 3}\n" for i in range(len(TRIANGLES)))
+        (self.folder / "triangles.obj").write_text(obj, encoding="utf-8")
+        self.assertEqual(VERDICTS, self.collide("--triangles", "triangles.obj")["status"].numbers)
+
+    def test_options_are_read_strictly(self):
+        collide = ("collide", "circle.json", "--triangles", "triangles.npy", "-o", "out.npz")
+        for option, value in [
+            ("--tolerance", "0"),
+            ("--tolerance", "-1"),
+            ("--tolerance", "nan"),
+            ("--tolerance", "small"),
+            ("--budget", "0"),
+            ("--budget", "-1"),
+            ("--budget", "4294967296"),
+            ("--starts", "many"),
+            ("--iterations", "1e3"),
+            ("--method", "magic"),
+            ("--goal", "quickest"),
+            ("--gradient", "guess"),
+        ]:
+            with self.subTest(option=option, value=value):
+                self.assertIn(f": {option}: ", self.refuse(*collide, option, value))
+
+    def test_exactly_one_kind_of_query_is_asked(self):
+        self.refuse("collide", "circle.json", "-o", "out.npz")
+        self.refuse("collide", "circle.json", "--triangles", "triangles.npy", "--circles", "x.npy", "-o", "out.npz")
+
+    def test_a_local_method_proves_no_separation(self):
+        for method in ("thesis", "projected", "descent"):
+            with self.subTest(method=method):
+                result = self.collide("--triangles", "triangles.npy", "--method", method)
+                self.assert_columns(result, len(TRIANGLES), 2, triangles=True)
+                self.assertEqual(UNDECIDED, result["status"].numbers[0])
+                self.assertEqual(0, result["claimed"].numbers[0])
+                self.assertEqual(1, result["claimed"].numbers[1])
+
+    def test_threads_do_not_change_the_bytes(self):
+        self.scene("thesis.json", THESIS)
+        generator = random.Random(1)
+        centres = [(generator.uniform(0, 1920), generator.uniform(0, 1080)) for _ in range(3000)]
+        self.save_triangles([[c + generator.uniform(-60, 60) for c in centre * 3] for centre in centres])
+        results = set()
+        for threads in ("1", "2", "3", "0"):
+            self.collide("--triangles", "triangles.npy", "--threads", threads, scene="thesis.json")
+            results.add((self.folder / "out.npz").read_bytes())
+        self.assertEqual(1, len(results))
+
+
+class Circles(CollideCase):
+    def test_verdicts_and_columns_of_the_plane(self):
+        self.save("circles.npy", [4, 0, 1, 3, 0, 1.5, 0, 0, 0.5, 0, 0, 9, 1, 0, 0], (5, 3))
+        result = self.collide("--circles", "circles.npy")
+        self.assert_columns(result, 5, 2, triangles=False)
+        self.assertEqual([SEPARATED, OVERLAPPING, OVERLAPPING, OVERLAPPING, OVERLAPPING], result["status"].numbers)
+
+    def test_spheres_of_space(self):
+        self.save("spheres.npy", [4, 0, 0, 1, 3, 0, 0, 1.5], (2, 4))
+        result = self.collide("--circles", "spheres.npy", scene="sphere.json")
+        self.assert_columns(result, 2, 3, triangles=False)
+        self.assertEqual([SEPARATED, OVERLAPPING], result["status"].numbers)
+
+    def test_no_circles_give_empty_columns(self):
+        self.save("circles.npy", [], (0, 3))
+        self.assert_columns(self.collide("--circles", "circles.npy"), 0, 2, triangles=False)
+
+    def test_a_bad_row_is_marked(self):
+        self.save("circles.npy", [4, 0, math.nan, 4, 0, 1], (2, 3))
+        self.assertEqual([BAD_ROW, SEPARATED], self.collide("--circles", "circles.npy")["status"].numbers)
+
+    def test_the_published_method_answers_circles(self):
+        self.save("circles.npy", [4, 0, 1, 3, 0, 1.5], (2, 3))
+        result = self.collide("--circles", "circles.npy", "--method", "published")
+        self.assertEqual([0, 1], result["claimed"].numbers)
+
+    def test_circles_of_another_width_are_refused(self):
+        self.save("circles.npy", [4, 0, 1, 2], (1, 4))
+        line = self.refuse("collide", "circle.json", "--circles", "circles.npy", "-o", "out.npz")
+        self.assertIn("expected (N, 3) for circles, found (1, 4)", line)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,98 @@
+# SPDX-FileCopyrightText: The thalweg authors
+# SPDX-License-Identifier: MIT
+"""`thalweg eval`: the field of a circle is known, so its values and gradients are too."""
+
+import json
+import math
+import unittest
+
+import arrays
+from cli_case import CIRCLE, CliCase
+
+POINTS = [(0.5, 0.0), (3.0, 4.0), (0.0, -2.0), (-1.0, 1.0)]
+EXPECTED = [math.hypot(x, y) - 2 for x, y in POINTS]
+
+
+class Eval(CliCase):
+    def setUp(self):
+        super().setUp()
+        self.save("points.npy", [number for point in POINTS for number in point], (4, 2))
+        self.command = ("eval", "circle.json", "--points", "points.npy")
+
+    def assert_values(self, value: arrays.Array) -> None:
+        self.assertEqual(("<f4", (4,)), (value.descr, value.shape))
+        for found, expected in zip(value.numbers, EXPECTED, strict=True):
+            self.assertAlmostEqual(expected, found, delta=1e-5)
+
+    def test_values_are_float32_in_the_order_of_the_points(self):
+        self.succeed(*self.command, "-o", "out.npz")
+        result = self.result("out.npz")
+        self.assertEqual(["value"], list(result))
+        self.assert_values(result["value"])
+
+    def test_a_gradient_is_a_second_column(self):
+        self.succeed(*self.command, "--gradient", "autodiff", "-o", "out.npz")
+        result = self.result("out.npz")
+        self.assertEqual(["value", "gradient"], list(result))
+        self.assertEqual(("<f4", (4, 2)), (result["gradient"].descr, result["gradient"].shape))
+        for (x, y), (gx, gy) in zip(POINTS, result["gradient"].rows(), strict=True):
+            self.assertAlmostEqual(x / math.hypot(x, y), gx, delta=1e-5)
+            self.assertAlmostEqual(y / math.hypot(x, y), gy, delta=1e-5)
+
+    def test_an_unknown_strategy_is_refused(self):
+        self.assertIn(": --gradient: ", self.refuse(*self.command, "--gradient", "guess", "-o", "out.npz"))
+
+    def test_one_array_may_be_npy(self):
+        self.succeed(*self.command, "-o", "out.npy")
+        self.assert_values(arrays.parse_npy((self.folder / "out.npy").read_bytes()))
+
+    def test_float64_and_csv_points_give_the_same_bytes(self):
+        self.succeed(*self.command, "-o", "out.npz")
+        self.save("double.npy", [number for point in POINTS for number in point], (4, 2), "<f8")
+        (self.folder / "points.csv").write_text("x,y\n" + "".join(f"{x},{y}\n" for x, y in POINTS), encoding="utf-8")
+        expected = (self.folder / "out.npz").read_bytes()
+        for points in ("double.npy", "points.csv"):
+            self.succeed("eval", "circle.json", "--points", points, "-o", "again.npz")
+            self.assertEqual(expected, (self.folder / "again.npz").read_bytes(), points)
+
+    def test_stdin_and_stdout_carry_arrays_and_the_summary_goes_to_stderr(self):
+        points = (self.folder / "points.npy").read_bytes()
+        done = self.succeed("eval", "circle.json", "--points", "-", "-o", "-", stdin=points)
+        self.assert_values(arrays.parse_npz(done.stdout)["value"])
+        self.assertIn(b"points", done.stderr)
+        done = self.succeed("eval", "circle.json", "--points", "-", "-o", "-", "--quiet", stdin=b"0.5,0\n3,4\n0,-2\n-1,1\n")
+        self.assert_values(arrays.parse_npz(done.stdout)["value"])
+        self.assertEqual(b"", done.stderr)
+
+    def test_the_scene_may_come_from_stdin(self):
+        self.succeed("eval", "-", "--points", "points.npy", "-o", "out.npz", stdin=json.dumps(CIRCLE).encode())
+        self.assert_values(self.result("out.npz")["value"])
+
+    def test_no_points_give_no_values(self):
+        self.save("none.npy", [], (0, 2))
+        self.succeed("eval", "circle.json", "--points", "none.npy", "--gradient", "central", "-o", "out.npz")
+        result = self.result("out.npz")
+        self.assertEqual((0,), result["value"].shape)
+        self.assertEqual((0, 2), result["gradient"].shape)
+
+    def test_a_bad_row_is_nan_and_counted_and_the_others_are_answered(self):
+        self.save("bad.npy", [math.nan, 0, 3, 4, 0, math.inf, 2e15, 0], (4, 2))
+        done = self.succeed("eval", "circle.json", "--points", "bad.npy", "-o", "out.npz", "--json")
+        value = self.result("out.npz")["value"].numbers
+        self.assertEqual([True, False, True, True], [math.isnan(number) for number in value])
+        self.assertAlmostEqual(3, value[1], delta=1e-5)
+        report = json.loads(done.stdout)
+        self.assertEqual((4, 3), (report["rows"], report["bad_rows"]))
+
+    def test_threads_do_not_change_the_bytes(self):
+        numbers = [math.sin(i) * 5 for i in range(20000)]
+        self.save("many.npy", numbers, (10000, 2))
+        results = set()
+        for threads in ("1", "2", "0"):
+            self.succeed("eval", "circle.json", "--points", "many.npy", "--threads", threads, "-o", "out.npz")
+            results.add((self.folder / "out.npz").read_bytes())
+        self.assertEqual(1, len(results))
+
+
+if __name__ == "__main__":
+    unittest.main()

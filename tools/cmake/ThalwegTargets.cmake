@@ -1,0 +1,37 @@
+# SPDX-FileCopyrightText: The thalweg authors
+# SPDX-License-Identifier: MIT
+#
+# What every target of the project has in common. Nothing here reaches a target of an embedding project.
+include_guard()
+
+# thalweg_configure(<target>): language level, warnings and the arithmetic that makes results reproducible.
+function(thalweg_configure target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(
+    ${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON COMPILE_WARNING_AS_ERROR ${THALWEG_WERROR})
+  target_compile_options(
+    ${target}
+    PRIVATE # The same bits on every target with fused multiply-add: the compiler must not choose where to fuse.
+            -ffp-contract=off
+            # sqrt and floor become instructions; nothing here reads errno.
+            -fno-math-errno
+            -Wall
+            -Wextra
+            -Wpedantic
+            -Wshadow
+            -Wconversion
+            # g++ 12 sees overlapping copies in concatenated std::strings (GCC bug 105329).
+            $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+endfunction()
+
+# thalweg_library(<target> <export name>): a library of the package, with its public headers in include/thalweg.
+function(thalweg_library target export_name)
+  add_library(${target})
+  add_library(thalweg::${export_name} ALIAS ${target})
+  thalweg_configure(${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name} VERSION ${PROJECT_VERSION} SOVERSION
+                                                                                                   ${PROJECT_VERSION})
+  file(GLOB headers CONFIGURE_DEPENDS include/thalweg/*.h)
+  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${headers})
+  target_include_directories(${target} PRIVATE src)
+endfunction()

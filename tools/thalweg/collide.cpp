@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: The thalweg authors
+// SPDX-License-Identifier: MIT
+//
+// `thalweg collide`: triangles or circles against a scene, one row of every result column for each.
+#include <array>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "collide_result.h"
+#include "command.h"
+#include "input.h"
+#include "npz.h"
+#include "options.h"
+#include "output.h"
+#include "progress.h"
+#include "queries.h"
+#include "report.h"
+
+namespace thalweg::cli {
+
+namespace {
+
+struct Options {
+  std::string scene, circles, triangles, output;
+  CollideOptions collide;
+  std::uint64_t starts = 0, iterations = 0, budget = CollideOptions().budget;
+
+  [[nodiscard]] QueryKind kind() const { return triangles.empty() ? QueryKind::circles : QueryKind::triangles; }
+};
+
+// Names of the counts in Summary::by_status, in its order.
+constexpr std::array<std::string_view, 5> kStatusNames = {"separated", "overlapping", "touching", "undecided",
+                                                          "bad_row"};
+
+struct Run {
+  Summary summary;
+  double seconds = 0;
+};
+
+Run collide(const Tape& tape, const Array& rows, CollideResult& result, const Options& options,
+            const Globals& globals) {
+  const Queries queries{rows.values.data(), rows.shape[0]};
+  Progress progress("collide", queries.count, globals.quiet);
+  Execution execution = globals.execution();
+  execution.done = progress.done();
+  const Stopwatch watch;
+  const bool triangles = options.kind() == QueryKind::triangles;
+  Result<Summary> summary = triangles ? collide_triangles(tape, queries, options.collide, result.columns(), execution)
+                                      : collide_circles(tape, queries, options.collide, result.columns(), execution);
+  const double seconds = watch.seconds();
+  return {unwrap(std::move(summary), kCommandLine, "--method"), seconds};
+}
+
+double evaluations_per_query(const Summary& summary) {
+  const std::size_t answered = summary.rows - summary.by_status[4];
+  return answered == 0 ? 0 : static_cast<double>(summary.evaluations) / static_cast<double>(answered);
+}
+
+std::string_view noun(const Options& options) {
+  return options.kind() == QueryKind::triangles ? "triangles" : "circles";
+}
+
+Json report_json(const Options& options, const Globals& globals, const Run& run, double tolerance) {
+  Json by_status;
+  for (std::size_t i = 0; i < kStatusNames.size(); ++i)
+    by_status[std::string(kStatusNames[i])] = run.summary.by_status[i];
+  Json json = {{"command", "collide"},
+               {"scene", options.scene},
+               {"queries", noun(options)},
+               {"rows", run.summary.rows},
+               {"status", std::move(by_status)},
+               {"bad_rows", run.summary.by_status[4]},
+               {"evaluations", run.summary.evaluations},
+               {"evaluations_per_query", evaluations_per_query(run.summary)},
+               {"method", name(options.collide.method)},
+               {"goal", name(options.collide.goal)},
+               {"tolerance", tolerance},
+               {"budget", options.collide.budget}};
+  add_run(json, globals, run.summary.rows, run.seconds);
+  json["output"] = options.output;
+  return json;
+}
+
+std::string report_text(const Options& options, const Globals& globals, const Run& run, double tolerance) {
+  const Summary& summary = run.summary;
+  Sheet sheet;
+  sheet.add(noun(options), grouped(summary.rows));
+  for (std::size_t i = 0; i < kStatusNames.size(); ++i) {
+    const double percent =
+        summary.rows == 0 ? 0 : 100.0 * static_cast<double>(summary.by_status[i]) / static_cast<double>(summary.rows);
+    const std::string label = i == 4 ? "bad rows" : std::string(kStatusNames[i]);
+    sheet.add("  " + label, fmt::format("{:>12}  {:6.2f} %", grouped(summary.by_status[i]), percent));
+  }
+  sheet.add("method", fmt::format("{}, goal {}, tolerance {:.4g}, budget {}", name(options.collide.method),
+                                  name(options.collide.goal), tolerance, options.collide.budget));
+  sheet.add("evaluations",
+            fmt::format("{}, {:.3f} a query", grouped(summary.evaluations), evaluations_per_query(summary)));
+  sheet.add("elapsed", run_text(globals, summary.rows, run.seconds, noun(options)));
+  return sheet.text();
+}
+
+void check(const Options& options) {
+  if (options.circles.empty() && options.triangles.empty()) {
+    refuse(kCommandLine, "collide", "--circles or --triangles", "neither");
+  }
+  if (!options.circles.empty() && !options.triangles.empty()) {
+    refuse(kCommandLine, "collide", "one of --circles and --triangles", "both");
+  }
+  check_result_name(options.output, 2);
+}
+
+ExitCode run_collide(Options& options, const Globals& globals) {
+  check(options);
+  options.collide.starts = static_cast<std::uint32_t>(options.starts);
+  options.collide.iterations = static_cast<std::uint32_t>(options.iterations);
+  options.collide.budget = static_cast<std::uint32_t>(options.budget);
+  const Scene scene = read_scene(options.scene);
+  const Tape tape = unwrap(compile(scene.shape), input_name(options.scene), "/shape");
+  const Array rows = options.kind() == QueryKind::triangles ? read_triangles(options.triangles, scene.dimension)
+                                                            : read_circles(options.circles, scene.dimension);
+  Output output(options.output);
+  CollideResult result(options.kind(), rows.shape[0], scene.dimension);
+  const Run run = collide(tape, rows, result, options, globals);
+  write_columns(output, options.output, result.list());
+  output.commit();
+
+  const double tolerance = options.collide.tolerance > 0 ? options.collide.tolerance : default_tolerance(tape);
+  print_report(globals, output.is_stdout(), report_json(options, globals, run, tolerance),
+               report_text(options, globals, run, tolerance));
+  return ExitCode::done;
+}
+
+void add_unsupported_options(CLI::App& command) {
+  add_unsupported(command, {"--with", "A second scene"});
+  add_unsupported(command, {"--poses", "Poses of the second scene"});
+  add_unsupported(command, {"--contacts", "Several contacts per query"});
+}
+
+}  // namespace
+
+Command add_collide(CLI::App& app, const Globals& globals) {
+  constexpr std::uint64_t kMost = UINT32_MAX;
+  CLI::App* const command = app.add_subcommand("collide", "Triangles or circles against a scene");
+  const auto options = std::make_shared<Options>();
+  command->add_option("SCENE", options->scene, "Scene file, or - for stdin")->required();
+  command->add_option("--circles", options->circles, "Circles (N,3) or spheres (N,4): .npy, .csv, -");
+  command->add_option("--triangles", options->triangles, "Triangles (N,3,d): .npy, .csv, .obj, .ply, .stl, -");
+  add_output(*command, options->output, ".npz, or - for stdout");
+  add_word(*command, {"--method", "certified (default), descent, thesis, projected, published"},
+           options->collide.method, &parse_method);
+  add_word(*command, {"--goal", "verdict (default) or deepest"}, options->collide.goal, &parse_goal);
+  CLI::Option* const gradient =
+      add_word(*command, {"--gradient", "Strategy of the local methods"}, options->collide.gradient, &parse_gradient);
+  add_integer(*command, {"--starts", "Starts of a local method"}, options->starts, {0, kMost});
+  add_integer(*command, {"--iterations", "Iterations of a local method"}, options->iterations, {0, kMost});
+  add_positive(*command, {"--tolerance", "Scene units; default 1e-4 of the diagonal of the bounds"},
+               options->collide.tolerance);
+  add_integer(*command, {"--budget", "Evaluations per query, default 4096"}, options->budget, {1, kMost});
+  add_unsupported_options(*command);
+  return {command, [options, gradient, &globals] {
+            options->collide.gradient_given = gradient->count() > 0;
+            return run_collide(*options, globals);
+          }};
+}
+
+}  // namespace thalweg::cli
