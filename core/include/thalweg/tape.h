@@ -51,6 +51,7 @@ struct Tape {
   int position_count = 1;               ///< position 0 is the query point
   Facts facts;                          ///< of the root
   Affine slack;                         ///< |float32 value - f| <= slack(m); f in double has 2^-29 of it
+  Affine search_slack;                  ///< the same for bounds over cells: value, centre, reach and their arithmetic
   bool has_support = false;             ///< some primitive has a support function, so enclosures beat f - L r
 
   /// The program, one instruction a line.

@@ -91,6 +91,8 @@ class Writer {
     tape_.position_count = positions_.count();
     tape_.facts = facts;
     tape_.slack = ssa_.values[at(ssa_.root)].error;
+    // Half as much again for the arithmetic of bounds, and 16 eps L m for the rounding of centres and reaches.
+    tape_.search_slack = {.a = 1.5 * tape_.slack.a, .b = 1.5 * tape_.slack.b + 16 * 0x1p-24 * facts.lipschitz};
     tape_.constants.assign(tape_.constants64.begin(), tape_.constants64.end());
     return std::move(tape_);
   }

@@ -72,11 +72,6 @@ MethodDefaults defaults_of(Method method) {
   }
 }
 
-Affine slack_of(const Tape& tape) {
-  const double position = 16 * 0x1p-24 * tape.facts.lipschitz;
-  return {.a = 1.5 * tape.slack.a, .b = 1.5 * tape.slack.b + position};
-}
-
 }  // namespace
 
 std::string_view name(Status status) {
@@ -128,7 +123,7 @@ Result<SolveLimits> plan(const Tape& tape, QueryKind kind, const CollideOptions&
   limits.iterations = options.iterations == 0 ? defaults.iterations : options.iterations;
   limits.budget = options.budget;
   limits.tolerance = options.tolerance > 0 ? options.tolerance : default_tolerance(tape);
-  limits.slack = slack_of(tape);
+  limits.slack = tape.search_slack;
   limits.slack64 = {.a = limits.slack.a * Twin::kSlackRatio, .b = limits.slack.b * Twin::kSlackRatio};
   const bool dichotomy =
       limits.gradient == Gradient::dichotomy || limits.gradient == Gradient::dichotomy_verbatim;
