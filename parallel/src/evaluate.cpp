@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The thalweg authors
 // SPDX-License-Identifier: MIT
 //
-// Batches of points: rows to columns, through the kernels, and back.
+// Batches of points.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,7 +10,7 @@
 
 #include "gradient/strategies.h"
 #include "schedule.h"
-#include "solve/finish.h"
+#include "solve/arena.h"
 #include "thalweg/batch.h"
 
 namespace thalweg {
@@ -38,21 +38,15 @@ class EvaluateTask final : public TileTask {
     if (worker == nullptr) worker = std::make_unique<Worker>();
     Arena& arena = worker->arena;
     arena.reset();
-    const std::size_t count = end - begin;
-    float* points[3] = {};
-    float* gradient[3] = {};
-    for (std::size_t axis = 0; axis < d_; ++axis) points[axis] = arena.take<float>(padded(count));
-    float* value = arena.take<float>(padded(count));
     float* scratch = arena.take<float>(scratch_floats(tape_));
-    worker->bad_rows += to_columns(begin, count, points);
-    if (rows_.gradient == nullptr) {
-      target_->kernels->value(tape_, points, count, value, scratch);
+    if (rows_.gradient == nullptr || strategy_ == Gradient::autodiff) {
+      float* value = rows_.value == nullptr ? nullptr : rows_.value + begin;
+      float* gradient = rows_.gradient == nullptr ? nullptr : rows_.gradient + begin * d_;
+      worker->bad_rows +=
+          target_->kernels->rows(tape_, rows_.points + begin * d_, end - begin, value, gradient, scratch);
     } else {
-      for (std::size_t axis = 0; axis < d_; ++axis) gradient[axis] = arena.take<float>(padded(count));
-      const GradientColumns columns{points, count, value, gradient};
-      evaluate_gradient(strategy_, tape_, *target_->kernels, columns, {}, scratch, arena);
+      worker->bad_rows += difference(begin, end - begin, arena, scratch);
     }
-    to_rows(begin, count, value, gradient);
   }
 
   [[nodiscard]] std::size_t bad_rows() const {
@@ -66,6 +60,20 @@ class EvaluateTask final : public TileTask {
     Arena arena;
     std::size_t bad_rows = 0;
   };
+
+  /// Strategies that probe around each point want columns.
+  std::size_t difference(std::size_t begin, std::size_t count, Arena& arena, float* scratch) const {
+    float* points[3] = {};
+    float* gradient[3] = {};
+    for (std::size_t axis = 0; axis < d_; ++axis) points[axis] = arena.take<float>(padded(count));
+    for (std::size_t axis = 0; axis < d_; ++axis) gradient[axis] = arena.take<float>(padded(count));
+    float* value = arena.take<float>(padded(count));
+    const std::size_t bad_rows = to_columns(begin, count, points);
+    const GradientColumns columns{points, count, value, gradient};
+    evaluate_gradient(strategy_, tape_, *target_->kernels, columns, {}, scratch, arena);
+    to_rows(begin, count, value, gradient);
+    return bad_rows;
+  }
 
   [[nodiscard]] bool is_bad(std::size_t row) const {
     for (std::size_t axis = 0; axis < d_; ++axis) {
@@ -91,7 +99,6 @@ class EvaluateTask final : public TileTask {
     for (std::size_t i = 0; i < count; ++i) {
       const bool bad = is_bad(begin + i);
       if (rows_.value != nullptr) rows_.value[begin + i] = bad ? kNan : value[i];
-      if (rows_.gradient == nullptr) continue;
       for (std::size_t axis = 0; axis < d_; ++axis) {
         rows_.gradient[(begin + i) * d_ + axis] = bad ? kNan : gradient[axis][i];
       }

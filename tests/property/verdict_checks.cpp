@@ -104,7 +104,6 @@ std::string shape_fault(const Row& row, const Answers& a, std::size_t i) {
                                                : distance(row.point, row.triangle[0]) - row.radius;
   if (!(gap <= rounding)) return "the point is outside the query by " + std::to_string(gap);
   if (!(std::abs(length(row.normal) - 1) < 1e-5)) return "the normal's length is " + std::to_string(length(row.normal));
-  if (a.evaluations[i] > a.options.budget) return "evaluations exceed the budget";
   if (a.form == Form::circles) return "";
   Vec sum;
   double weights = 0, least = 1;
@@ -200,6 +199,7 @@ Findings check_rows(const Field& field, const Tape& tape, const Answers& a) {
     findings.unknown += verdict(field, found, row.magnitude) == Verdict::cannot_tell ? 1U : 0U;
     findings.undecided += row.status == Status::undecided ? 1U : 0U;
     findings.unconverged += row.converged ? 0U : 1U;
+    findings.over_budget += a.evaluations[i] > a.options.budget ? 1U : 0U;
     std::string fault = shape_fault(row, a, i);
     if (fault.empty()) fault = verdict_fault(field, row, found, a);
     if (fault.empty()) fault = bound_fault(field, tape, row, found);

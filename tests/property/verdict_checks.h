@@ -40,6 +40,7 @@ struct Findings {
   std::size_t unknown = 0;      ///< rows whose sign the oracle could not tell
   std::size_t undecided = 0;    ///< status 3
   std::size_t unconverged = 0;  ///< goal not reached within the budget
+  std::size_t over_budget = 0;  ///< more evaluations than allowed
 };
 [[nodiscard]] Findings check_rows(const oracle::Field& field, const Tape& tape, const Answers& answers);
 

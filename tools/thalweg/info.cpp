@@ -112,12 +112,12 @@ std::string bounds_text(const Bounds& bounds, int dimension) {
 std::string yes_no(bool value) { return value ? "yes" : "no"; }
 
 std::string simd_text(const Globals& globals) {
-  std::vector<std::string> names;
+  std::string names;
   for (const Target& target : targets()) {
     const bool active = target.name == globals.active_target().name;
-    names.push_back(fmt::format("{}{}", target.name, active ? " (active)" : ""));
+    names += fmt::format("{}{}{}", names.empty() ? "" : ", ", target.name, active ? " (active)" : "");
   }
-  return fmt::format("{}", fmt::join(names, ", "));
+  return names;
 }
 
 std::string shapes_text(const NodeList& list) {

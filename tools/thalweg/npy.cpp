@@ -54,7 +54,7 @@ class HeaderText {
     if (quote != '\'' && quote != '"') refuse_here("a string");
     const std::size_t end = text_.find(quote, at_ + 1);
     if (end == std::string_view::npos) refuse_here("a closed string");
-    const std::string value(text_.substr(at_ + 1, end - at_ - 1));
+    std::string value(text_.substr(at_ + 1, end - at_ - 1));
     at_ = end + 1;
     return value;
   }

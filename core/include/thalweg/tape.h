@@ -32,7 +32,8 @@ struct Instruction {
 
   static constexpr std::uint16_t kLoad = 0xfffe;
   static constexpr std::uint16_t kSupport = 1;  ///< convex primitive with a support function, reached rigidly
-  static constexpr std::uint16_t kSwapped = 2;  ///< the accumulator is the first operand
+  static constexpr std::uint16_t kDepth = 2;    ///< primitive of exact inside, reached rigidly
+  static constexpr std::uint16_t kSwapped = 4;  ///< the accumulator is the first operand
 };
 static_assert(sizeof(Instruction) == 16);
 

@@ -201,12 +201,14 @@ class Flattener {
     }
     const auto dimension = static_cast<std::size_t>(entry.row.dimension);
     const Position& where = ssa_.positions[static_cast<std::size_t>(position)];
-    Value value{.op = shape.op_index(), .a = -1, .b = -1, .position = position, .support = false, .constants = {},
+    Value value{.op = shape.op_index(), .a = -1, .b = -1, .position = position, .flags = 0, .constants = {},
                 .size = {}, .error = {}};
     entry.derive(placed.numbers, value.constants);
     value.constants.insert(value.constants.begin(), placed.at.translation.begin(),
                            placed.at.translation.begin() + static_cast<std::ptrdiff_t>(dimension));
-    value.support = entry.has_support && entry.primitive_facts(shape.parameters()).convex && where.rigid;
+    const ops::PrimitiveFacts facts = entry.primitive_facts(shape.parameters());
+    if (where.rigid && facts.convex && entry.has_support) value.flags |= Instruction::kSupport;
+    if (where.rigid && facts.inside == Exactness::exact) value.flags |= Instruction::kDepth;
     value.size = plus(where.reach, {norm(placed.at.translation) + placed.extent, 0});
     value.error = plus(plus(times(entry.row.rounding * kEps, value.size), where.error), {kUnderflow, 0});
     return add(std::move(value));
@@ -224,7 +226,7 @@ class Flattener {
       if (entry.idempotent && next == folded) continue;
       const Value& a = ssa_.values[static_cast<std::size_t>(folded)];
       const Value& b = ssa_.values[static_cast<std::size_t>(next)];
-      Value value{.op = shape.op_index(), .a = folded, .b = next, .position = -1, .support = false,
+      Value value{.op = shape.op_index(), .a = folded, .b = next, .position = -1, .flags = 0,
                   .constants = constants, .size = plus(larger(a.size, b.size), {extent_here, 0}), .error = {}};
       value.error = plus(larger(a.error, b.error), times(entry.row.rounding * kEps, value.size));
       folded = add(std::move(value));
@@ -237,7 +239,7 @@ class Flattener {
     const std::vector<double> numbers = scaled_numbers(shape, at.scale);
     const int operand = walk(shape.operands()[0], at, position);
     const Value& a = ssa_.values[static_cast<std::size_t>(operand)];
-    Value value{.op = shape.op_index(), .a = operand, .b = -1, .position = -1, .support = false, .constants = {},
+    Value value{.op = shape.op_index(), .a = operand, .b = -1, .position = -1, .flags = 0, .constants = {},
                 .size = plus(a.size, {extent(entry.row, numbers), 0}), .error = {}};
     value.error = plus(a.error, times(entry.row.rounding * kEps, value.size));
     entry.derive(numbers, value.constants);

@@ -28,7 +28,7 @@ struct Value {
   int a = -1;
   int b = -1;
   int position = -1;  ///< primitives only
-  bool support = false;
+  std::uint16_t flags = 0;  ///< kSupport and kDepth of the instruction
   std::vector<double> constants;
   Affine size;   ///< |value| <= size(m)
   Affine error;  ///< |float32 value - real value| <= error(m)

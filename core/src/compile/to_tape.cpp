@@ -134,8 +134,8 @@ class Writer {
     instruction.op = static_cast<std::uint16_t>(v.op);
     if (v.position >= 0) {
       instruction.operand = slot_of(v.position);
-      if (v.support) instruction.flags |= Instruction::kSupport;
-      tape_.has_support = tape_.has_support || v.support;
+      instruction.flags = v.flags;
+      tape_.has_support = tape_.has_support || (v.flags & Instruction::kSupport) != 0;
     } else if (v.b < 0) {
       if (previous != v.a) load(v.a);
     } else {

@@ -12,7 +12,9 @@ namespace thalweg {
 
 [[nodiscard]] ValueKernel value_entry(std::int64_t target);
 [[nodiscard]] GradientKernel gradient_entry(std::int64_t target);
+[[nodiscard]] RowsKernel rows_entry(std::int64_t target);
 [[nodiscard]] EnclosureKernel enclosure_entry(std::int64_t target);
+[[nodiscard]] FinishKernel finish_entry(std::int64_t target);
 [[nodiscard]] TriangleSolver certify_triangles_entry(std::int64_t target);
 [[nodiscard]] CircleSolver certify_circles_entry(std::int64_t target);
 

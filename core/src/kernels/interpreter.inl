@@ -189,8 +189,8 @@ struct GradientMode {
   }
 };
 
-/// Cells are given by what bounds need of them: the reach (greatest distance from the centre to a point of the cell)
-/// and the least of g . (v - c) over the cell's vertices v for a unit vector g.
+/// Cells are given by what bounds need of them: the reach (greatest distance from the centre c to a point of the
+/// cell), the least of g . (v - c) over the cell's vertices v, and the greatest |v - c + o| for an offset o.
 template <class T_, int D_, class Cell>
 struct EnclosureMode {
   using T = T_;
@@ -202,21 +202,28 @@ struct EnclosureMode {
 
   Cell cell;
 
-  /// f lies within the reach of its value at the centre (every primitive is 1-Lipschitz). The signed distance of a
-  /// convex set is the greatest of u . p - h(u) over unit u, h its support function: any u gives a lower bound, and
-  /// the gradient at the centre a tight one.
+  /// f lies within the reach of its value at the centre (every primitive is 1-Lipschitz). Two facts say more.
+  /// The signed distance of a convex set is the greatest of u . p - h(u) over unit u, h its support function: any u
+  /// gives a lower bound, and the gradient at the centre a tight one. And an exact depth is at most the distance to
+  /// any one point of the surface: to c - f grad f, the closest one of the centre, it is again tight.
   template <class Declared>
   HWY_INLINE Register primitive(const Machine<T>& m, const Instruction& in, Point<T, D> p, Constants<T> c) const {
     const Field<T, D> f = Declared::field(p, c);
     const T reach = cell.reach();
     T lo = f.value - reach;
-    if constexpr (requires { Declared::support(p, c); }) {
-      if ((in.flags & Instruction::kSupport) != 0) {
-        const auto u = f.gradient;
-        const T slope = cell.least_slope(pull_back<T, D>(m, in.operand, u));
-        const T plane = dot(u, p) - Declared::support(u, c) + slope;
-        const auto is_unit = Make<T>::set(0.9) < dot(u, u);
-        lo = select(is_unit, max(lo, plane), lo);
+    if ((in.flags & (Instruction::kSupport | Instruction::kDepth)) != 0) {
+      const auto u = f.gradient;
+      const auto slope = pull_back<T, D>(m, in.operand, u);
+      const auto is_unit = Make<T>::set(0.9) < dot(u, u);
+      if constexpr (requires { Declared::support(p, c); }) {
+        if ((in.flags & Instruction::kSupport) != 0) {
+          const T plane = dot(u, p) - Declared::support(u, c) + cell.least_slope(slope);
+          lo = select(is_unit, max(lo, plane), lo);
+        }
+      }
+      if ((in.flags & Instruction::kDepth) != 0) {
+        const T depth = -cell.most_distance(scaled(slope, f.value));
+        lo = select(both(is_unit, f.value < zero<T>()), max(lo, depth), lo);
       }
     }
     return {lo, f.value, f.value + reach};

@@ -19,6 +19,8 @@ namespace thalweg {
 inline constexpr int kPackWidth = 2;
 /// The widest chunk of any target: kPackWidth vectors of 512 bits.
 inline constexpr std::size_t kMostChunkLanes = kPackWidth * 16;
+/// A coordinate that can be answered is finite and at most this large.
+inline constexpr float kLargestCoordinate = 1e15F;
 inline constexpr std::size_t kColumnPadding = 64;
 [[nodiscard]] constexpr std::size_t padded(std::size_t count) {
   return (count + kColumnPadding - 1) / kColumnPadding * kColumnPadding;
@@ -44,19 +46,29 @@ using ValueKernel = void (*)(const Tape& tape, const float* const* points, std::
                              float* scratch);
 using GradientKernel = void (*)(const Tape& tape, const float* const* points, std::size_t count, float* value,
                                 float* const* gradient, float* scratch);
+/// Row-major points (N,d); `gradient` (N,d) may be null. Rows that cannot be answered give NaN; returns how many.
+using RowsKernel = std::size_t (*)(const Tape& tape, const float* points, std::size_t count, float* value,
+                                   float* gradient, float* scratch);
 using EnclosureKernel = void (*)(const Tape& tape, const float* const* centres, const CellColumns& cells,
                                  std::size_t count, float* lower, float* value, float* scratch);
 
 struct TriangleTile;
 struct CircleTile;
 struct TileScratch;
+struct QueryTile;
+struct QueryState;
+class Arena;
+/// Writes the result columns that the caller wants; evaluates the gradient at the points for the normals.
+using FinishKernel = void (*)(const QueryTile& tile, const QueryState& state, float* scratch, Arena& arena);
 using TriangleSolver = void (*)(const TriangleTile& tile, TileScratch& scratch);
 using CircleSolver = void (*)(const CircleTile& tile, TileScratch& scratch);
 
 struct Kernels {
   ValueKernel value = nullptr;
   GradientKernel gradient = nullptr;
+  RowsKernel rows = nullptr;
   EnclosureKernel enclosure = nullptr;
+  FinishKernel finish = nullptr;
   TriangleSolver certify_triangles = nullptr;
   CircleSolver certify_circles = nullptr;
 };

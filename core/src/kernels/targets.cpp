@@ -35,7 +35,9 @@ TargetList make_targets() {
     const std::int64_t target = left & -left;
     list.kernels.push_back({.value = value_entry(target),
                             .gradient = gradient_entry(target),
+                            .rows = rows_entry(target),
                             .enclosure = enclosure_entry(target),
+                            .finish = finish_entry(target),
                             .certify_triangles = certify_triangles_entry(target),
                             .certify_circles = certify_circles_entry(target)});
     list.targets.push_back({.name = hwy::TargetName(target),

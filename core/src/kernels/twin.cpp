@@ -32,6 +32,23 @@ struct TwinCell {
     }
     return {least};
   }
+  [[nodiscard]] Real most_distance(Point<Real, D> offset) const {
+    const double o[3] = {offset.x.v, offset.y.v, [&] {
+                           if constexpr (D == 3) return offset.z.v;
+                           return 0.0;
+                         }()};
+    double most = 0;
+    for (int vertex = 0; vertex < (cell->is_box ? 1 : 3); ++vertex) {
+      double square = 0;
+      for (int axis = 0; axis < D; ++axis) {
+        const double edge = cell->edges[vertex * D + axis];
+        const double x = cell->is_box ? edge + std::fabs(o[axis]) : edge + o[axis];
+        square += x * x;
+      }
+      most = std::max(most, square);
+    }
+    return {std::sqrt(most)};
+  }
 };
 
 Machine<Real> twin_machine(const Tape& tape, double* memory, std::uint32_t* definition, const double* point) {

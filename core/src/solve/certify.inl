@@ -6,16 +6,17 @@
 //   wave 0   every query is one cell          f(centre), reach  ->  separated / witness / open
 //   wave k   every open cell is split         children of all queries side by side in the lanes
 //
-// A cell with centre c and reach r has min f >= f(c) - L r, or more where enclosures know convex parts.
+// A cell with centre c and reach r has min f >= f(c) - L r, or more where enclosures know the shape's parts.
 //
-// 1. Cells are exact: dyadic coordinates and a signed power of two for the size, so that children tile their parent
-//    and reaches are scaled, not computed again.
+// 1. Cells are exact: dyadic coordinates within the query's region, so that children tile their parent.
 // 2. A witness needs f(c) < -slack, a discard needs bound > slack: the slack covers every rounding between the real
 //    function over the exact cell and the float32 number at hand.
 // 3. Nothing depends on the tile: a query's cells keep the order of its own splits, its incumbent changes between
 //    waves only, and of equal values the first in that order wins.
-// 4. Cells that float32 cannot resolve send their query to the search in double (decide.h).
-// 5. A wave holds at most kWaveCells cells. Queries that do not fit wait in batches of one level each.
+// 4. The incumbent is polished by one probe down its gradient, because a minimum on the rim of the region is met by
+//    no centre.
+// 5. Queries that float32 cannot resolve go on in double (decide.h).
+// 6. A wave holds at most kWaveCells cells. Queries that do not fit wait in batches of one level each.
 //
 // The region of a query (triangle, ball) is the template's Domain (domains.inl). Included once per SIMD target.
 #if defined(THALWEG_SOLVE_CERTIFY_INL) == defined(HWY_TARGET_TOGGLE)
@@ -39,26 +40,42 @@ namespace HWY_NAMESPACE {
 
 /// Children that one wave may hold.
 inline constexpr size_t kWaveCells = 8192;
-/// From this level on enclosures are used where the tape has support functions: their gradients cost about twice a
-/// value, and most queries end before.
+/// From this level on enclosures are used where they can say more than f(c) - L r: they cost about two values.
 inline constexpr uint32_t kFirstEnclosureLevel = 2;
-/// Once touching is proven, this part of the budget may have gone into proving more.
+/// From this level on a verdict's incumbents are polished; a deepest point's are from the start.
+inline constexpr uint32_t kFirstProbeLevel = 4;
+/// Once touching is proven, one part in this many of the budget may have gone into proving more.
 inline constexpr uint32_t kTouchingEffort = 4;
+
+inline constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
 template <class Domain>
 class Certifier {
  public:
   static constexpr size_t kChildren = Domain::kChildren;
+  static constexpr size_t kCoordinates = Domain::kCoordinates;
 
   Certifier(const QueryTile& tile, TileScratch& scratch) : tile_(tile), limits_(*tile.limits), scratch_(scratch) {
     Arena& arena = scratch.arena;
     arena.reset();
+    const size_t room = padded(tile.count);
     state_ = QueryState::make(arena, tile.tape->dimension, tile.count);
     domain_.take(arena, tile.count);
-    wave_.take(arena, kWaveCells, Domain::kEdgeColumns);
+    const size_t wave_room = kWaveCells + kChildren * kColumnPadding;
+    wave_.take(arena, wave_room, kCoordinates, Domain::kEdgeColumns);
+    open_.take(arena, wave_room, kCoordinates);
+    next_.take(arena, wave_room, kCoordinates);
+    for (float*& column : cell_) column = arena.take<float>(room);
+    for (float** column : {&threshold_, &open_lower_, &kept_}) *column = arena.take<float>(wave_room);
+    best_value_ = arena.take<float>(wave_room);
+    closed_lower_ = arena.take<float>(wave_room);
+    cell_lower_ = arena.take<float>(wave_room);
+    cell_open_ = arena.take<float>(wave_room);
+    progress_ = arena.take<Progress>(room);
+    touched_ = arena.take<uint32_t>(std::max(room, wave_room));
+    hard_ = arena.take<uint32_t>(room);
     kernel_scratch_ = arena.take<float>(scratch_floats(*tile.tape));
-    open_ = arena.take<OpenCell>(kWaveCells);
-    hard_ = arena.take<uint32_t>(tile.count);
+    tolerance_ = static_cast<float>(limits_.tolerance);
     scratch.waiting.clear();
   }
 
@@ -67,70 +84,104 @@ class Certifier {
     first_wave();
     while (refill()) {
       ++level_;
-      expand();
-      evaluate();
-      reduce();
+      split();
+      bound();
+      take_incumbents();
+      if (limits_.goal == Goal::deepest || level_ >= kFirstProbeLevel) probe();
+      close_cells();
+      conclude();
+      compact();
     }
     for (size_t i = 0; i < hard_count_; ++i) decide_in_double(hard_[i]);
-    finish(tile_, state_, kernel_scratch_, scratch_.arena);
+    tile_.kernels->finish(tile_, state_, kernel_scratch_, scratch_.arena);
   }
 
  private:
+  /// What one wave learns of a query; valid for the level that it names.
+  struct Progress {
+    uint32_t level;
+    uint32_t open;       ///< open cells
+    float open_lower;    ///< least bound over them
+    bool improved;       ///< the incumbent is of this wave
+    bool unresolved;     ///< some open cell is too small for float32
+    bool keeps;          ///< the query goes on in the next wave
+  };
+
+  [[nodiscard]] bool wants_deepest() const { return limits_.goal == Goal::deepest; }
+
   // --- wave 0 ---------------------------------------------------------------------------------------------------------
 
   void first_wave() {
     const size_t n = tile_.count;
     const F32 d;
+    const hn::RebindToUnsigned<F32> du;
     // Rounded up: the slack is a claim.
     const auto slack_a = hn::Set(d, static_cast<float>(limits_.slack.a * (1 + 1e-6)));
     const auto slack_b = hn::Set(d, static_cast<float>(limits_.slack.b * (1 + 1e-6)));
-    for (size_t i = 0; i < n; i += hn::Lanes(d)) {
-      hn::StoreU(hn::MulAdd(slack_b, hn::LoadU(d, domain_.largest() + i), slack_a), d, state_.slack + i);
-    }
     tile_.kernels->value(*tile_.tape, state_.point, n, state_.value, kernel_scratch_);
     const auto lipschitz = hn::Set(d, static_cast<float>(tile_.tape->facts.lipschitz));
+    const auto tolerance = hn::Set(d, wants_deepest() ? tolerance_ : kInfinite);
+    const auto one = hn::Set(d, 1.0F);
+    size_t open_count = 0;
     for (size_t i = 0; i < n; i += hn::Lanes(d)) {
+      const auto slack = hn::MulAdd(slack_b, hn::LoadU(d, domain_.largest() + i), slack_a);
       const auto f = hn::LoadU(d, state_.value + i);
-      const auto bound = hn::NegMulAdd(lipschitz, hn::LoadU(d, domain_.reach() + i), f);
-      hn::StoreU(hn::Sub(bound, hn::LoadU(d, state_.slack + i)), d, state_.lower + i);
+      const auto lower = hn::Sub(hn::NegMulAdd(lipschitz, hn::LoadU(d, domain_.reach() + i), f), slack);
+      const auto witness = hn::Lt(f, hn::Neg(slack));
+      const auto known = hn::Or(witness, hn::Gt(lower, hn::Zero(d)));
+      const auto closed = hn::And(known, hn::Ge(lower, hn::Sub(f, tolerance)));
+      const auto bad = hn::Gt(hn::LoadU(d, state_.is_bad + i), hn::Zero(d));
+      const auto here = hn::FirstN(d, HWY_MIN(n - i, hn::Lanes(d)));
+      const auto open = hn::AndNot(hn::Or(closed, bad), here);
+      hn::StoreU(slack, d, state_.slack + i);
+      hn::StoreU(lower, d, state_.lower + i);
+      hn::StoreU(hn::IfThenElseZero(witness, one), d, state_.witness + i);
+      hn::StoreU(hn::IfThenElse(open, hn::Zero(d), one), d, state_.converged + i);
+      hn::StoreU(hn::Set(du, 1), du, state_.evaluations + i);
+      hn::StoreU(hn::Zero(du), du, state_.iterations + i);
+      const auto index = hn::Iota(du, static_cast<uint32_t>(i));
+      open_count += hn::CompressStore(index, hn::RebindMask(du, open), du, touched_ + open_count);
     }
-    for (size_t q = 0; q < n; ++q) {
-      state_.evaluations[q] = 1;
-      state_.iterations[q] = 0;
-      state_.witness[q] = state_.value[q] < -state_.slack[q] ? 1 : 0;
-      const bool open = state_.is_bad[q] == 0 && !is_closed(q, state_.lower[q]);
-      state_.converged[q] = open ? 0 : 1;
-      if (!open) continue;
-      scratch_.waiting.push_back({static_cast<uint32_t>(q), 0, Domain::kRoot, Domain::kRoot, Domain::kRoot, 1,
-                                  state_.lower[q]});
-      state_.lower[q] = std::numeric_limits<float>::infinity();
-    }
-    std::reverse(scratch_.waiting.begin(), scratch_.waiting.end());
+    begin_search(open_count);
   }
 
-  /// No point of a cell with this bound can change the answer to query q.
-  [[nodiscard]] bool is_closed(size_t q, float lower) const {
-    const bool verdict_known = lower > 0 || state_.witness[q] != 0;
-    if (limits_.goal == Goal::verdict) return verdict_known;
-    return verdict_known && lower >= state_.value[q] - static_cast<float>(limits_.tolerance);
+  /// The queries in touched_ become one cell each.
+  void begin_search(size_t open_count) {
+    for (size_t i = 0; i < open_count; ++i) {
+      const uint32_t q = touched_[i];
+      for (size_t k = 0; k < kCoordinates; ++k) cell_[k][q] = Domain::kRoot[k];
+      progress_[q] = {0, 1, state_.lower[q], true, false, true};
+    }
+    touched_count_ = open_count;
+    if (wants_deepest()) probe();
+    auto& waiting = scratch_.waiting;
+    for (size_t i = open_count; i-- > 0;) {
+      const uint32_t q = touched_[i];
+      WaitingCell cell{q, 0, {}};
+      std::copy_n(Domain::kRoot, kCoordinates, cell.at);
+      waiting.push_back(cell);
+      state_.lower[q] = kInfinite;
+    }
   }
 
   // --- wave k ---------------------------------------------------------------------------------------------------------
 
-  /// Brings the open cells of the next wave to open_: those left by the last wave, or a waiting batch. False at the end.
+  /// The open cells of the next wave: those left by the last one, or a batch that waits. False at the end.
   bool refill() {
-    if (open_count_ == 0) {
+    if (open_.count == 0) {
       auto& waiting = scratch_.waiting;
       if (waiting.empty()) return false;
-      // A batch is a run of whole queries of one level; the stack holds them last first.
+      // The stack holds whole queries, last ones first; a batch is of one level.
       level_ = waiting.back().level;
       while (!waiting.empty() && waiting.back().level == level_) {
         size_t run = 1;
         const uint32_t q = waiting.back().query;
         while (run < waiting.size() && waiting[waiting.size() - 1 - run].query == q) ++run;
-        if ((open_count_ + run) * kChildren > kWaveCells) break;
-        for (size_t i = 0; i < run; ++i) {
-          open_[open_count_++] = waiting.back();
+        if ((open_.count + run) * kChildren > kWaveCells) break;
+        for (; run > 0; --run) {
+          open_.query[open_.count] = q;
+          for (size_t k = 0; k < kCoordinates; ++k) open_.at[k][open_.count] = waiting.back().at[k];
+          ++open_.count;
           waiting.pop_back();
         }
       }
@@ -138,131 +189,266 @@ class Certifier {
     return true;
   }
 
-  void expand() {
-    child_count_ = open_count_ * kChildren;
-    for (size_t i = 0; i < open_count_; ++i) {
-      for (size_t k = 0; k < kChildren; ++k) {
-        const OpenCell child = Domain::child(open_[i], k);
-        const size_t at = i * kChildren + k;
-        wave_.query[at] = child.query;
-        wave_.u[at] = child.u;
-        wave_.v[at] = child.v;
-        if constexpr (Domain::kAxes == 3) wave_.w[at] = child.w;
-        wave_.size[at] = child.size;
-      }
+  void split() {
+    const size_t lanes = vector_lanes();
+    wave_.stride = (open_.count + lanes - 1) / lanes * lanes;
+    for (size_t i = open_.count; i < wave_.stride; ++i) {
+      open_.query[i] = open_.query[0];
+      for (size_t k = 0; k < kCoordinates; ++k) open_.at[k][i] = open_.at[k][0];
     }
-    for (size_t i = child_count_; i < padded(child_count_); ++i) {
-      wave_.query[i] = 0;
-      wave_.u[i] = wave_.v[i] = wave_.w[i] = wave_.size[i] = 0;
-    }
+    encloses_ = level_ >= kFirstEnclosureLevel && (tile_.tape->has_support || wants_deepest());
+    domain_.split(open_, wave_, encloses_);
   }
 
-  void evaluate() {
-    const bool encloses = tile_.tape->has_support && level_ >= kFirstEnclosureLevel;
-    domain_.place(wave_, child_count_, encloses);
+  /// Values at the children's centres, and bounds less the slack.
+  void bound() {
     const F32 d;
-    if (encloses) {
+    const size_t total = kChildren * wave_.stride;
+    if (encloses_) {
       CellColumns cells;
       cells.reach = wave_.reach;
       for (size_t i = 0; i < Domain::kEdgeColumns; ++i) cells.edges[i] = wave_.edges[i];
       cells.is_box = Domain::kIsBall;
-      tile_.kernels->enclosure(*tile_.tape, wave_.centre, cells, child_count_, wave_.lower, wave_.value,
-                               kernel_scratch_);
+      tile_.kernels->enclosure(*tile_.tape, wave_.centre, cells, total, wave_.lower, wave_.value, kernel_scratch_);
     } else {
-      tile_.kernels->value(*tile_.tape, wave_.centre, child_count_, wave_.value, kernel_scratch_);
+      tile_.kernels->value(*tile_.tape, wave_.centre, total, wave_.value, kernel_scratch_);
       const auto lipschitz = hn::Set(d, static_cast<float>(tile_.tape->facts.lipschitz));
-      for (size_t i = 0; i < child_count_; i += hn::Lanes(d)) {
+      for (size_t i = 0; i < total; i += hn::Lanes(d)) {
         const auto f = hn::LoadU(d, wave_.value + i);
         hn::StoreU(hn::NegMulAdd(lipschitz, hn::LoadU(d, wave_.reach + i), f), d, wave_.lower + i);
       }
     }
-  }
-
-  void reduce() {
-    size_t kept = 0;
-    const size_t parents = open_count_;
-    open_count_ = 0;
-    size_t begin = 0;
-    const size_t total = parents * kChildren;
-    while (begin < total) {
-      size_t end = begin + kChildren;
-      const uint32_t q = wave_.query[begin];
-      while (end < total && wave_.query[end] == q) end += kChildren;
-      take_incumbent(q, begin, end);
-      kept = keep_open(q, begin, end, kept);
-      begin = end;
-    }
-    open_count_ = kept;
-    // What the next wave cannot hold waits, whole queries at a time.
-    size_t fits = kept;
-    while (fits * kChildren > kWaveCells) {
-      const uint32_t q = open_[fits - 1].query;
-      while (fits > 0 && open_[fits - 1].query == q) --fits;
-    }
-    for (size_t i = kept; i-- > fits;) scratch_.waiting.push_back(open_[i]);
-    open_count_ = fits;
-  }
-
-  void take_incumbent(uint32_t q, size_t begin, size_t end) {
-    size_t best = end;
-    float least = state_.value[q];
-    for (size_t i = begin; i < end; ++i) {
-      if (wave_.value[i] < least) {
-        least = wave_.value[i];
-        best = i;
+    for (size_t i = 0; i < open_.count; i += hn::Lanes(d)) {
+      const auto slack = gather(state_.slack, open_.query + i);
+      auto best = hn::Set(d, kInfinite);
+      for (size_t k = 0; k < kChildren; ++k) {
+        const size_t at = k * wave_.stride + i;
+        hn::StoreU(hn::Sub(hn::LoadU(d, wave_.lower + at), slack), d, wave_.lower + at);
+        best = hn::Min(best, hn::LoadU(d, wave_.value + at));
       }
+      hn::StoreU(best, d, best_value_ + i);
     }
-    state_.evaluations[q] += static_cast<uint32_t>(end - begin);
-    state_.iterations[q] += 1;
-    if (best == end) return;
-    state_.value[q] = least;
-    for (int axis = 0; axis < Domain::kAxes; ++axis) state_.point[axis][q] = wave_.centre[axis][best];
-    state_.barycentric[0][q] = wave_.u[best] + wave_.size[best] / 3;
-    state_.barycentric[1][q] = wave_.v[best] + wave_.size[best] / 3;
-    state_.witness[q] = least < -state_.slack[q] ? 1 : 0;
   }
 
-  /// Appends the open cells of a query to open_ unless it is done or handed on; returns the new count.
-  size_t keep_open(uint32_t q, size_t begin, size_t end, size_t kept) {
-    const size_t first = kept;
-    const float slack = state_.slack[q];
-    float closed_lower = state_.lower[q];
-    float open_lower = std::numeric_limits<float>::infinity();
-    bool resolved = true;
-    for (size_t i = begin; i < end; ++i) {
-      const float lower = wave_.lower[i] - slack;
-      if (is_closed(q, lower)) {
-        closed_lower = std::min(closed_lower, lower);
+  void take_incumbents() {
+    touched_count_ = 0;
+    for (size_t i = 0; i < open_.count; ++i) {
+      const uint32_t q = open_.query[i];
+      if (progress_[q].level != level_) {
+        progress_[q] = {level_, 0, kInfinite, false, false, false};
+        state_.iterations[q] = level_;
+        touched_[touched_count_++] = q;
+      }
+      state_.evaluations[q] += kChildren;
+      if (best_value_[i] < state_.value[q]) adopt(q, i);
+    }
+  }
+
+  void adopt(uint32_t q, size_t parent) {
+    size_t at = parent;
+    while (wave_.value[at] != best_value_[parent]) at += wave_.stride;
+    float cell[kMostCoordinates];
+    for (size_t k = 0; k < kCoordinates; ++k) cell_[k][q] = cell[k] = wave_.at[k][at];
+    float uv[2];
+    Domain::centre_coordinates(cell, uv);
+    for (int axis = 0; axis < Domain::kAxes; ++axis) state_.point[axis][q] = wave_.centre[axis][at];
+    set_incumbent(q, best_value_[parent], uv);
+    progress_[q].improved = true;
+  }
+
+  void set_incumbent(uint32_t q, float value, const float* uv) {
+    state_.value[q] = value;
+    state_.barycentric[0][q] = uv[0];
+    state_.barycentric[1][q] = uv[1];
+    if (value < -state_.slack[q]) state_.witness[q] = 1;
+  }
+
+  // --- probes -----------------------------------------------------------------------------------------------------------
+
+  /// Looks once for a lower value near each new incumbent.
+  void probe() {
+    const size_t room = kWaveCells;
+    for (size_t first = 0; first < touched_count_;) {
+      size_t count = 0;
+      for (; first < touched_count_ && count < room; ++first) {
+        const uint32_t q = touched_[first];
+        const bool decided = !wants_deepest() && state_.witness[q] != 0;
+        if (!progress_[q].improved || decided || state_.evaluations[q] + 2 > limits_.budget) continue;
+        next_.query[count] = q;
+        for (int axis = 0; axis < Domain::kAxes; ++axis) next_.at[axis][count] = state_.point[axis][q];
+        ++count;
+      }
+      probe_list(count);
+    }
+  }
+
+  /// next_ lends its columns: it is empty between compactions. The wave's edges and reach have been used.
+  void probe_list(size_t count) {
+    constexpr size_t kAxes = Domain::kAxes;
+    float* points[3] = {next_.at[0], next_.at[1], kAxes == 3 ? next_.at[2] : nullptr};
+    float* gradient[3] = {threshold_, open_lower_, kAxes == 3 ? kept_ : nullptr};
+    tile_.kernels->gradient(*tile_.tape, points, count, closed_lower_, gradient, kernel_scratch_);
+    float* u = cell_lower_;
+    float* v = cell_open_;
+    for (size_t i = 0; i < count; ++i) {
+      const uint32_t q = next_.query[i];
+      float cell[kMostCoordinates];
+      for (size_t k = 0; k < kCoordinates; ++k) cell[k] = cell_[k][q];
+      float from[3] = {};
+      float slope[3] = {};
+      for (size_t axis = 0; axis < kAxes; ++axis) {
+        from[axis] = points[axis][i];
+        slope[axis] = gradient[axis][i];
+      }
+      float to[3] = {};
+      float uv[2] = {};
+      domain_.probe(q, cell, from, slope, to, uv);
+      for (size_t axis = 0; axis < kAxes; ++axis) points[axis][i] = to[axis];
+      u[i] = uv[0];
+      v[i] = uv[1];
+    }
+    tile_.kernels->value(*tile_.tape, points, count, closed_lower_, kernel_scratch_);
+    for (size_t i = 0; i < count; ++i) {
+      const uint32_t q = next_.query[i];
+      state_.evaluations[q] += 2;
+      if (!(closed_lower_[i] < state_.value[q])) continue;
+      for (size_t axis = 0; axis < kAxes; ++axis) state_.point[axis][q] = points[axis][i];
+      const float uv[2] = {u[i], v[i]};
+      set_incumbent(q, closed_lower_[i], uv);
+    }
+  }
+
+  // --- what stays open --------------------------------------------------------------------------------------------------
+
+  /// A cell is closed when its bound is above this: no point of it can change the answer.
+  [[nodiscard]] float threshold(uint32_t q) const {
+    const bool witness = state_.witness[q] != 0;
+    if (!wants_deepest()) return witness ? -kInfinite : 0;
+    const float value = state_.value[q] - tolerance_;
+    return witness ? value : std::max(0.0F, value);
+  }
+
+  void close_cells() {
+    const F32 d;
+    for (size_t i = 0; i < open_.count; ++i) threshold_[i] = threshold(open_.query[i]);
+    const auto infinite = hn::Set(d, kInfinite);
+    const auto one = hn::Set(d, 1.0F);
+    for (size_t i = 0; i < open_.count; i += hn::Lanes(d)) {
+      const auto limit = hn::LoadU(d, threshold_ + i);
+      const auto slack = gather(state_.slack, open_.query + i);
+      auto closed_least = infinite;
+      auto open_least = infinite;
+      auto open = hn::Zero(d);
+      auto unresolved = hn::Zero(d);
+      for (size_t k = 0; k < kChildren; ++k) {
+        const auto lower = hn::LoadU(d, wave_.lower + k * wave_.stride + i);
+        const auto is_closed = hn::Gt(lower, limit);
+        const auto small = hn::Le(hn::LoadU(d, wave_.reach + k * wave_.stride + i), slack);
+        closed_least = hn::Min(closed_least, hn::IfThenElse(is_closed, lower, infinite));
+        open_least = hn::Min(open_least, hn::IfThenElse(is_closed, infinite, lower));
+        open = hn::Add(open, hn::IfThenZeroElse(is_closed, one));
+        unresolved = hn::Max(unresolved, hn::IfThenElseZero(hn::AndNot(is_closed, small), one));
+      }
+      hn::StoreU(closed_least, d, closed_lower_ + i);
+      hn::StoreU(open_least, d, open_lower_ + i);
+      hn::StoreU(open, d, cell_open_ + i);
+      hn::StoreU(unresolved, d, kept_ + i);
+    }
+    for (size_t i = 0; i < open_.count; ++i) {
+      const uint32_t q = open_.query[i];
+      state_.lower[q] = std::min(state_.lower[q], closed_lower_[i]);
+      progress_[q].open += static_cast<uint32_t>(cell_open_[i]);
+      progress_[q].open_lower = std::min(progress_[q].open_lower, open_lower_[i]);
+      progress_[q].unresolved = progress_[q].unresolved || kept_[i] != 0;
+    }
+  }
+
+  /// Decides for each query of the wave whether it goes on.
+  void conclude() {
+    for (size_t i = 0; i < touched_count_; ++i) {
+      const uint32_t q = touched_[i];
+      Progress& p = progress_[q];
+      if (p.open == 0) {
+        state_.converged[q] = 1;
         continue;
       }
-      open_lower = std::min(open_lower, lower);
-      resolved = resolved && wave_.reach[i] > slack;
-      // Children number kChildren times the parents, so the list never overtakes the cells that are read.
-      open_[kept++] = {q, level_, wave_.u[i], wave_.v[i], Domain::kAxes == 3 ? wave_.w[i] : 0, wave_.size[i], lower};
+      const float lower = std::min(state_.lower[q], p.open_lower);
+      const size_t next = p.open * kChildren;
+      const bool spent = next > limits_.budget || state_.evaluations[q] > limits_.budget - next;
+      const bool reached = goal_reached(q, lower);
+      if (spent || (reached && state_.evaluations[q] > limits_.budget / kTouchingEffort)) {
+        state_.lower[q] = lower;
+        state_.converged[q] = reached ? 1 : 0;
+      } else if (p.unresolved || next > kWaveCells) {
+        state_.lower[q] = lower;
+        state_.converged[q] = reached ? 1 : 0;
+        if (can_decide(limits_.budget - state_.evaluations[q])) hard_[hard_count_++] = q;
+      } else {
+        p.keeps = true;
+      }
     }
-    state_.lower[q] = closed_lower;
-    const size_t open = kept - first;
-    if (open == 0) {
-      state_.converged[q] = 1;
-      return first;
+  }
+
+  /// Short of a proven sign the goal is reached within tolerance: what is left is to prove more.
+  [[nodiscard]] bool goal_reached(uint32_t q, float lower) const {
+    if (wants_deepest()) return state_.value[q] - lower <= tolerance_;
+    return state_.value[q] + state_.slack[q] <= tolerance_ && lower >= -tolerance_;
+  }
+
+  void compact() {
+    const F32 d;
+    const hn::RebindToUnsigned<F32> du;
+    for (size_t i = 0; i < open_.count; ++i) kept_[i] = progress_[open_.query[i]].keeps ? 1 : 0;
+    size_t kept = 0;
+    for (size_t k = 0; k < kChildren; ++k) {
+      for (size_t i = 0; i < open_.count; i += hn::Lanes(d)) {
+        const size_t at = k * wave_.stride + i;
+        const auto keeps = hn::Gt(hn::LoadU(d, kept_ + i), hn::Zero(d));
+        const auto is_closed = hn::Gt(hn::LoadU(d, wave_.lower + at), hn::LoadU(d, threshold_ + i));
+        const auto here = hn::FirstN(d, HWY_MIN(open_.count - i, hn::Lanes(d)));
+        const auto stays = hn::And(here, hn::AndNot(is_closed, keeps));
+        if (hn::AllFalse(d, stays)) continue;
+        for (size_t c = 0; c < kCoordinates; ++c) {
+          hn::CompressStore(hn::LoadU(d, wave_.at[c] + at), stays, d, next_.at[c] + kept);
+        }
+        kept += hn::CompressStore(hn::LoadU(du, open_.query + i), hn::RebindMask(du, stays), du, next_.query + kept);
+      }
     }
-    const auto next = static_cast<uint32_t>(std::min<size_t>(open * kChildren, 0xffffffffU));
-    const bool spent = next > limits_.budget || state_.evaluations[q] > limits_.budget - next;
-    const auto tolerance = static_cast<float>(limits_.tolerance);
-    const bool touches = limits_.goal == Goal::verdict && state_.value[q] + slack <= tolerance &&
-                         std::min(closed_lower, open_lower) >= -tolerance &&
-                         state_.evaluations[q] > limits_.budget / kTouchingEffort;
-    if (spent || touches) {
-      state_.lower[q] = std::min(closed_lower, open_lower);
-      state_.converged[q] = touches ? 1 : 0;
-      return first;
+    next_.count = kept;
+    if (kept * kChildren > kWaveCells) put_off();
+    std::swap(open_, next_);
+    next_.count = 0;
+  }
+
+  /// Keeps as many whole queries as the next wave can hold, in order; the others wait.
+  void put_off() {
+    size_t taken = 0;
+    for (size_t i = 0; i < touched_count_; ++i) {
+      Progress& p = progress_[touched_[i]];
+      if (!p.keeps) continue;
+      p.keeps = (taken + p.open) * kChildren <= kWaveCells;
+      if (p.keeps) taken += p.open;
     }
-    if (!resolved || open * kChildren > kWaveCells) {
-      state_.lower[q] = std::min(closed_lower, open_lower);
-      hard_[hard_count_++] = q;
-      return first;
+    auto& waiting = scratch_.waiting;
+    const size_t before = waiting.size();
+    size_t kept = 0;
+    for (size_t i = 0; i < next_.count; ++i) {
+      const uint32_t q = next_.query[i];
+      if (progress_[q].keeps) {
+        next_.query[kept] = q;
+        for (size_t k = 0; k < kCoordinates; ++k) next_.at[k][kept] = next_.at[k][i];
+        ++kept;
+      } else {
+        WaitingCell cell{q, level_, {}};
+        for (size_t k = 0; k < kCoordinates; ++k) cell.at[k] = next_.at[k][i];
+        waiting.push_back(cell);
+      }
     }
-    return kept;
+    next_.count = kept;
+    // Whole queries side by side, each in the order of its cells when taken from the end.
+    std::reverse(waiting.begin() + static_cast<std::ptrdiff_t>(before), waiting.end());
+    std::stable_sort(waiting.begin() + static_cast<std::ptrdiff_t>(before), waiting.end(),
+                     [](const WaitingCell& a, const WaitingCell& b) { return a.query > b.query; });
   }
 
   // --- what float32 cannot decide ---------------------------------------------------------------------------------------
@@ -276,23 +462,23 @@ class Certifier {
     const Decision found = decide(region, limits_, best, limits_.budget - state_.evaluations[q], scratch_);
     state_.evaluations[q] += found.evaluations;
     state_.iterations[q] += 1;
-    if (state_.witness[q] == 0 || found.value < state_.value[q]) {
+    const bool had_witness = state_.witness[q] != 0;
+    if (had_witness ? found.value < state_.value[q] && found.witness : true) {
       for (int axis = 0; axis < Domain::kAxes; ++axis) state_.point[axis][q] = found.point[axis];
       state_.value[q] = static_cast<float>(found.value);
       state_.barycentric[0][q] = static_cast<float>(found.u);
       state_.barycentric[1][q] = static_cast<float>(found.v);
-      state_.witness[q] = found.witness || state_.witness[q] != 0 ? 1 : 0;
+      state_.witness[q] = found.witness || had_witness ? 1 : 0;
     }
-    // The double value stands where float32 rounding would hide it.
-    state_.slack[q] = static_cast<float>(limits_.slack64(domain_.largest()[q]) * 1.001);
     state_.lower[q] = std::max(state_.lower[q], rounded_down(found.lower));
-    state_.converged[q] = found.closed ? 1 : 0;
+    // What is said from here on has double's slack.
+    state_.slack[q] = static_cast<float>(limits_.slack64(domain_.largest()[q]) * 1.001);
+    state_.converged[q] = found.closed || goal_reached(q, state_.lower[q]) ? 1 : 0;
   }
 
   static float rounded_down(double x) {
     const auto nearest = static_cast<float>(x);
-    return static_cast<double>(nearest) > x ? std::nextafter(nearest, -std::numeric_limits<float>::infinity())
-                                            : nearest;
+    return static_cast<double>(nearest) > x ? std::nextafter(nearest, -kInfinite) : nearest;
   }
 
   const QueryTile& tile_;
@@ -301,13 +487,26 @@ class Certifier {
   Domain domain_;
   QueryState state_;
   WaveColumns wave_;
-  float* kernel_scratch_ = nullptr;
-  OpenCell* open_ = nullptr;
-  size_t open_count_ = 0;
-  size_t child_count_ = 0;
+  CellList open_;  ///< parents of the wave
+  CellList next_;  ///< parents of the next one
   uint32_t level_ = 0;
-  uint32_t* hard_ = nullptr;
+  bool encloses_ = false;
+  float tolerance_ = 0;
+  float* kernel_scratch_ = nullptr;
+  float* cell_[kCoordinates] = {};  ///< per query: the cell whose centre is, or led to, the incumbent
+  Progress* progress_ = nullptr;    ///< per query
+  uint32_t* touched_ = nullptr;     ///< queries of the wave
+  size_t touched_count_ = 0;
+  uint32_t* hard_ = nullptr;  ///< queries that go on in double
   size_t hard_count_ = 0;
+  // Per parent of the wave; probes borrow them.
+  float* threshold_ = nullptr;
+  float* best_value_ = nullptr;
+  float* closed_lower_ = nullptr;
+  float* open_lower_ = nullptr;
+  float* cell_lower_ = nullptr;
+  float* cell_open_ = nullptr;
+  float* kept_ = nullptr;
 };
 
 }  // namespace HWY_NAMESPACE

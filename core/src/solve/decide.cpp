@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The thalweg authors
 // SPDX-License-Identifier: MIT
 //
-// Best first, by lower bound. A cell is given by exact dyadic numbers, so children tile their parent; centres are
-// rounded to double and the slack covers that. The reported point is a float32 one, and what is said of it is
+// Best first, by lower bound. A cell is given by exact dyadic numbers, so children tile their parent; its corners and
+// centre are rounded to double and the slack covers that. The reported point is a float32 one, and what is said of it is
 // evaluated at it.
 #include "solve/decide.h"
 
@@ -14,6 +14,11 @@ namespace thalweg {
 namespace {
 
 using HeapCell = TileScratch::HeapCell;
+
+/// A visit evaluates the enclosure, its centre's float32 rounding, and a probe's gradient, value and rounding.
+constexpr std::uint32_t kMostPerVisit = 5;
+/// Open cells held at once: 64 MB at the most, whatever the budget.
+constexpr std::size_t kMostCells = std::size_t{1} << 20;
 
 bool higher(const HeapCell& a, const HeapCell& b) { return a.lo > b.lo; }
 
@@ -36,11 +41,12 @@ class Search {
     best_.lower = std::numeric_limits<double>::infinity();
     most_evaluations_ = evaluations;
     best_.witness = false;
+    best_.value = std::numeric_limits<double>::infinity();
     best_.value = value_at(start.point);
-    visit({.lo = 0, .u = 0, .v = 0, .w = 0, .size = 1});
-    while (!heap_.empty() && !satisfied()) {
-      const std::uint32_t children = region_.is_ball ? 1U << region_.dimension : 4U;
-      if (best_.evaluations + children > most_evaluations_) break;
+    visit(region_.is_ball ? HeapCell{.lo = 0, .at = {0, 0, 0, 1}} : HeapCell{.lo = 0, .at = {0, 0, 1, 0, 0, 1}});
+    const std::uint32_t children = region_.is_ball ? 1U << region_.dimension : 2U;
+    while (!heap_.empty() && !satisfied() && best_.evaluations + children * kMostPerVisit <= most_evaluations_ &&
+           heap_.size() < kMostCells) {
       std::pop_heap(heap_.begin(), heap_.end(), higher);
       const HeapCell parent = heap_.back();
       heap_.pop_back();
@@ -69,19 +75,19 @@ class Search {
     return twin_.value(exact);
   }
 
-  /// Makes a centre the incumbent if f is lower at its float32 rounding. A witness needs both to be negative, since
-  /// the rounded point may lie outside the region; it only gives way to a better witness.
-  void consider(const double* centre, double value, const HeapCell& cell) {
+  /// Makes a point of the region the incumbent if f is lower at its float32 rounding. A witness needs both to be
+  /// negative, since the rounded point may lie outside the region; it only gives way to a better witness.
+  void consider(const double* exact, double value, double u, double v) {
     float point[3] = {};
-    for (int axis = 0; axis < region_.dimension; ++axis) point[axis] = static_cast<float>(centre[axis]);
+    for (int axis = 0; axis < region_.dimension; ++axis) point[axis] = static_cast<float>(exact[axis]);
     const double rounded = value_at(point);
     const bool witness = value < -slack_ && rounded < -slack_;
     if (best_.witness ? !witness || rounded >= best_.value : !witness && rounded >= best_.value) return;
     best_.value = rounded;
     best_.witness = witness;
     std::copy_n(point, region_.dimension, best_.point);
-    best_.u = cell.u + cell.size / 3;
-    best_.v = cell.v + cell.size / 3;
+    best_.u = u;
+    best_.v = v;
   }
 
   void visit(HeapCell cell) {
@@ -91,7 +97,12 @@ class Search {
     const Enclosure64 f = twin_.enclose(centre, shape);
     ++best_.evaluations;
     cell.lo = f.lo - slack_;
-    if (f.value < best_.value || (f.value < -slack_ && !best_.witness)) consider(centre, f.value, cell);
+    if (f.value < best_.value || (f.value < -slack_ && !best_.witness)) {
+      const double u = region_.is_ball ? 0 : (cell.at[0] + cell.at[2] + cell.at[4]) / 3;
+      const double v = region_.is_ball ? 0 : (cell.at[1] + cell.at[3] + cell.at[5]) / 3;
+      consider(centre, f.value, u, v);
+      if (!region_.is_ball) probe(cell, centre, shape);
+    }
     // Too small to learn more from, in double as well.
     const bool at_the_end = shape.reach <= slack_ / 4;
     if (is_closed(cell.lo) || at_the_end) {
@@ -102,22 +113,49 @@ class Search {
     }
   }
 
+  /// The corner of a triangle furthest against the gradient: a minimum on the rim is met by no centre.
+  void probe(const HeapCell& cell, const double* centre, const Cell64& shape) {
+    double gradient[3] = {};
+    twin_.gradient(centre, gradient);
+    ++best_.evaluations;
+    const int d = region_.dimension;
+    int lowest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (int corner = 0; corner < 3; ++corner) {
+      double height = 0;
+      for (int axis = 0; axis < d; ++axis) height += gradient[axis] * shape.edges[corner * d + axis];
+      if (height >= least) continue;
+      least = height;
+      lowest = corner;
+    }
+    double point[3] = {};
+    const double u = cell.at[2 * lowest];
+    const double v = cell.at[2 * lowest + 1];
+    locate(u, v, point);
+    const double value = twin_.value(point);
+    ++best_.evaluations;
+    consider(point, value, u, v);
+  }
+
+  void locate(double u, double v, double* point) const {
+    for (int axis = 0; axis < region_.dimension; ++axis) {
+      const double a = region_.corner[0][axis];
+      point[axis] = a + u * (region_.corner[1][axis] - a) + v * (region_.corner[2][axis] - a);
+    }
+  }
+
   bool triangle_cell(const HeapCell& cell, double* centre, Cell64& shape) const {
     const int d = region_.dimension;
-    const double u = cell.u + cell.size / 3;
-    const double v = cell.v + cell.size / 3;
-    for (int axis = 0; axis < d; ++axis) {
-      const double a = region_.corner[0][axis];
-      const double ab = region_.corner[1][axis] - a;
-      const double ac = region_.corner[2][axis] - a;
-      centre[axis] = a + u * ab + v * ac;
-      shape.edges[axis] = -(ab + ac) / 3 * cell.size;
-      shape.edges[d + axis] = (2 * ab - ac) / 3 * cell.size;
-      shape.edges[2 * d + axis] = (2 * ac - ab) / 3 * cell.size;
-    }
-    for (int vertex = 0; vertex < 3; ++vertex) {
+    double corner[3][3] = {};
+    for (int k = 0; k < 3; ++k) locate(cell.at[2 * k], cell.at[2 * k + 1], corner[k]);
+    for (int axis = 0; axis < d; ++axis) centre[axis] = (corner[0][axis] + corner[1][axis] + corner[2][axis]) / 3;
+    for (int k = 0; k < 3; ++k) {
       double square = 0;
-      for (int axis = 0; axis < d; ++axis) square += shape.edges[vertex * d + axis] * shape.edges[vertex * d + axis];
+      for (int axis = 0; axis < d; ++axis) {
+        const double edge = corner[k][axis] - centre[axis];
+        shape.edges[k * d + axis] = edge;
+        square += edge * edge;
+      }
       shape.reach = std::max(shape.reach, std::sqrt(square));
     }
     return true;
@@ -125,12 +163,13 @@ class Search {
 
   /// A box cut with the ball, evaluated at its centre moved into the ball; false where they do not meet.
   bool ball_cell(const HeapCell& cell, double* centre, Cell64& shape) const {
-    const double offsets[3] = {cell.u, cell.v, cell.w};
-    const double half = cell.size * region_.radius;
+    const double* offsets = cell.at;
+    const double size = cell.at[3];
+    const double half = size * region_.radius;
     double square = 0;
     for (int axis = 0; axis < region_.dimension; ++axis) square += offsets[axis] * offsets[axis];
     const double distance = std::sqrt(square);
-    const double corner = std::sqrt(static_cast<double>(region_.dimension)) * cell.size;
+    const double corner = std::sqrt(static_cast<double>(region_.dimension)) * size;
     if (distance - corner > 1 + 1e-9) return false;
     const double inward = distance > 1 ? (1 - 1e-15) / distance : 1;
     shape.is_box = true;
@@ -143,19 +182,39 @@ class Search {
     return true;
   }
 
+  /// Halves the longest edge.
   void split_triangle(const HeapCell& p) {
-    const double half = p.size / 2;
-    visit({0, p.u, p.v, 0, half});
-    visit({0, p.u + half, p.v, 0, half});
-    visit({0, p.u, p.v + half, 0, half});
-    visit({0, p.u + half, p.v + half, 0, -half});
+    double corner[3][3] = {};
+    for (int k = 0; k < 3; ++k) locate(p.at[2 * k], p.at[2 * k + 1], corner[k]);
+    int longest = 0;
+    double most = -1;
+    for (int k = 0; k < 3; ++k) {
+      double square = 0;
+      for (int axis = 0; axis < region_.dimension; ++axis) {
+        const double x = corner[k][axis] - corner[(k + 1) % 3][axis];
+        square += x * x;
+      }
+      if (square <= most) continue;
+      most = square;
+      longest = k;
+    }
+    const int next = (longest + 1) % 3;
+    HeapCell halves[2] = {p, p};
+    for (int i = 0; i < 2; ++i) {
+      const double middle = (p.at[2 * longest + i] + p.at[2 * next + i]) / 2;
+      halves[0].at[2 * longest + i] = middle;
+      halves[1].at[2 * next + i] = middle;
+    }
+    for (const HeapCell& half : halves) visit(half);
   }
 
   void split_box(const HeapCell& p) {
-    const double half = p.size / 2;
+    const double half = p.at[3] / 2;
     for (int child = 0; child < 1 << region_.dimension; ++child) {
-      visit({0, p.u + ((child & 1) != 0 ? half : -half), p.v + ((child & 2) != 0 ? half : -half),
-             region_.dimension == 3 ? p.w + ((child & 4) != 0 ? half : -half) : 0, half});
+      HeapCell cell = p;
+      for (int axis = 0; axis < region_.dimension; ++axis) cell.at[axis] += (child >> axis & 1) != 0 ? half : -half;
+      cell.at[3] = half;
+      visit(cell);
     }
   }
 
@@ -169,6 +228,8 @@ class Search {
 };
 
 }  // namespace
+
+bool can_decide(std::uint32_t evaluations) { return evaluations > kMostPerVisit; }
 
 Decision decide(const Region64& region, const SolveLimits& limits, const Decision& best, std::uint32_t evaluations,
                 TileScratch& scratch) {

@@ -26,6 +26,9 @@ struct Decision {
   std::uint32_t evaluations = 0;
 };
 
+/// Whether a budget is enough to begin.
+[[nodiscard]] bool can_decide(std::uint32_t evaluations);
+
 /// Searches within `evaluations` evaluations, starting from the incumbent in `best`.
 [[nodiscard]] Decision decide(const Region64& region, const SolveLimits& limits, const Decision& best,
                               std::uint32_t evaluations, TileScratch& scratch);

@@ -59,7 +59,7 @@ class Descent {
       for (std::uint32_t k = 0; k < limits_.iterations && lanes_.count > 0; ++k) iterate();
       retire_all();
     }
-    finish(tile_, state_, kernel_scratch_, arena_);
+    tile_.kernels->finish(tile_, state_, kernel_scratch_, arena_);
   }
 
  private:

@@ -10,6 +10,10 @@
 #define THALWEG_SOLVE_DOMAINS_INL
 #endif
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "kernels/lanes.inl"
 #include "solve/decide.h"
 #include "solve/finish.h"
@@ -19,23 +23,34 @@ HWY_BEFORE_NAMESPACE();
 namespace thalweg {
 namespace HWY_NAMESPACE {
 
-/// Columns of one wave's cells.
-struct WaveColumns {
+/// At most this many numbers say which piece of its query's region a cell is.
+inline constexpr size_t kMostCoordinates = 6;
+
+/// Open cells, one entry each: whose they are and which piece of the region.
+struct CellList {
   uint32_t* query = nullptr;
-  float* u = nullptr;
-  float* v = nullptr;
-  float* w = nullptr;
-  float* size = nullptr;
+  float* at[kMostCoordinates] = {};
+  size_t count = 0;
+
+  void take(Arena& arena, size_t room, size_t coordinates) {
+    query = arena.take<uint32_t>(room);
+    for (size_t i = 0; i < coordinates; ++i) at[i] = arena.take<float>(room);
+  }
+};
+
+/// The children of one wave in planes: child k of parent i is entry k * stride + i. The parents' queries are theirs.
+struct WaveColumns {
+  size_t stride = 0;
+  float* at[kMostCoordinates] = {};
   float* centre[3] = {};
   float* reach = nullptr;
   float* edges[9] = {};
   float* value = nullptr;
   float* lower = nullptr;
 
-  void take(Arena& arena, size_t count, size_t edge_columns) {
-    const size_t room = padded(count);
-    query = arena.take<uint32_t>(room);
-    for (float** column : {&u, &v, &w, &size, &centre[0], &centre[1], &centre[2], &reach, &value, &lower}) {
+  void take(Arena& arena, size_t room, size_t coordinates, size_t edge_columns) {
+    for (size_t i = 0; i < coordinates; ++i) at[i] = arena.take<float>(room);
+    for (float** column : {&centre[0], &centre[1], &centre[2], &reach, &value, &lower}) {
       *column = arena.take<float>(room);
     }
     for (size_t i = 0; i < edge_columns; ++i) edges[i] = arena.take<float>(room);
@@ -56,7 +71,7 @@ HWY_INLINE V32 gather(const float* column, const uint32_t* index) {
 /// Row-major rows of `width` numbers to columns, with the largest magnitude of each row; rows with a number that is
 /// not finite or too large are marked and replaced by zeros.
 template <size_t Width>
-HWY_INLINE void load_rows(const QueryTile& tile, float* const* columns, float* largest, uint8_t* is_bad) {
+HWY_INLINE void load_rows(const QueryTile& tile, float* const* columns, float* largest, float* is_bad) {
   const F32 d;
   const IndexLanes di;
   const size_t lanes = hn::Lanes(d);
@@ -80,27 +95,25 @@ HWY_INLINE void load_rows(const QueryTile& tile, float* const* columns, float* l
       hn::StoreU(x, d, columns[k] + i);
     }
     hn::StoreU(hn::IfThenElseZero(good, most), d, largest + i);
-    if (hn::AllTrue(d, good)) {
-      std::fill_n(is_bad + i, lanes, uint8_t{0});
-      continue;
-    }
+    hn::StoreU(hn::IfThenElse(good, hn::Zero(d), hn::Set(d, 1.0F)), d, is_bad + i);
+    if (hn::AllTrue(d, good)) continue;
     for (size_t k = 0; k < Width; ++k) {
       hn::StoreU(hn::IfThenElseZero(good, hn::LoadU(d, columns[k] + i)), d, columns[k] + i);
     }
-    uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, good, bits);
-    for (size_t lane = 0; lane < lanes; ++lane) is_bad[i + lane] = (bits[lane / 8] >> (lane % 8) & 1) != 0 ? 0 : 1;
   }
 }
 
+/// Triangles, halved across their longest edge: a cell is its three corners in barycentric coordinates (u, v) of the
+/// second and third corner of the query, dyadic and so exact. Slivers become compact in as few splits as any.
 template <int D>
 class TriangleDomain {
  public:
-  static constexpr size_t kChildren = 4;
+  static constexpr size_t kChildren = 2;
   static constexpr int kAxes = D;
+  static constexpr size_t kCoordinates = 6;  ///< u0 v0 u1 v1 u2 v2
+  static constexpr float kRoot[kCoordinates] = {0, 0, 1, 0, 0, 1};
   static constexpr size_t kEdgeColumns = 3 * D;
   static constexpr bool kIsBall = false;
-  static constexpr float kRoot = 0;
 
   void take(Arena& arena, size_t count) {
     for (float*& column : corners_) column = arena.take<float>(padded(count));
@@ -139,38 +152,55 @@ class TriangleDomain {
     }
   }
 
-  /// Four similar triangles; the middle one is turned, which its negative size says.
-  static HWY_INLINE OpenCell child(const OpenCell& p, size_t k) {
-    const float half = p.size * 0.5F;
-    OpenCell c = p;
-    c.size = k == 3 ? -half : half;
-    if (k == 1 || k == 3) c.u += half;
-    if (k == 2 || k == 3) c.v += half;
-    return c;
+  /// Splits a list of cells into the two planes of a wave.
+  void split(const CellList& open, WaveColumns& wave, bool with_edges) const {
+    const F32 d;
+    const auto half = hn::Set(d, 0.5F);
+    for (size_t i = 0; i < open.count; i += hn::Lanes(d)) {
+      const Frame frame = frame_of(open.query + i);
+      Corner corner[3];
+      for (size_t k = 0; k < 3; ++k) {
+        corner[k] = frame.corner(hn::LoadU(d, open.at[2 * k] + i), hn::LoadU(d, open.at[2 * k + 1] + i));
+      }
+      // Rotate the corners so that the longest edge runs from the first to the second; of equal ones the first.
+      const auto s01 = square_between(corner[0], corner[1]);
+      const auto s12 = square_between(corner[1], corner[2]);
+      const auto s20 = square_between(corner[2], corner[0]);
+      const auto is_12 = hn::And(hn::Gt(s12, s01), hn::Ge(s12, s20));
+      const auto is_20 = hn::And(hn::Gt(s20, s01), hn::Gt(s20, s12));
+      const Corner p = pick(is_20, corner[2], pick(is_12, corner[1], corner[0]));
+      const Corner q = pick(is_20, corner[0], pick(is_12, corner[2], corner[1]));
+      const Corner r = pick(is_20, corner[1], pick(is_12, corner[0], corner[2]));
+      const Corner m = frame.corner(hn::Mul(hn::Add(p.u, q.u), half), hn::Mul(hn::Add(p.v, q.v), half));
+      write(wave, i, p, m, r, with_edges);
+      write(wave, wave.stride + i, m, q, r, with_edges);
+    }
   }
 
-  /// Centres and reaches of a wave, and the corners relative to the centre if bounds need them.
-  void place(const WaveColumns& wave, size_t count, bool with_edges) const {
-    const F32 d;
-    const auto third = hn::Set(d, 1.0F / 3.0F);
-    for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-      const auto size = hn::LoadU(d, wave.size + i);
-      const auto u = hn::MulAdd(size, third, hn::LoadU(d, wave.u + i));
-      const auto v = hn::MulAdd(size, third, hn::LoadU(d, wave.v + i));
-      const auto step = hn::Mul(size, third);
-      for (size_t axis = 0; axis < D; ++axis) {
-        const auto a = gather(corners_[axis], wave.query + i);
-        const auto ab = gather(corners_[D + axis], wave.query + i);
-        const auto ac = gather(corners_[2 * D + axis], wave.query + i);
-        hn::StoreU(hn::MulAdd(u, ab, hn::MulAdd(v, ac, a)), d, wave.centre[axis] + i);
-        if (!with_edges) continue;
-        const auto two = hn::Set(d, 2.0F);
-        hn::StoreU(hn::Neg(hn::Mul(hn::Add(ab, ac), step)), d, wave.edges[axis] + i);
-        hn::StoreU(hn::Mul(hn::MulSub(two, ab, ac), step), d, wave.edges[D + axis] + i);
-        hn::StoreU(hn::Mul(hn::MulSub(two, ac, ab), step), d, wave.edges[2 * D + axis] + i);
-      }
-      hn::StoreU(hn::Mul(gather(reach_, wave.query + i), hn::Abs(size)), d, wave.reach + i);
+  /// Where f may be lower than at a cell's centre: the cell's corner furthest against the gradient.
+  void probe(uint32_t query, const float* cell, const float*, const float* gradient, float* point, float* uv) const {
+    float slope_b = 0;
+    float slope_c = 0;
+    for (size_t axis = 0; axis < D; ++axis) {
+      slope_b += gradient[axis] * corners_[D + axis][query];
+      slope_c += gradient[axis] * corners_[2 * D + axis][query];
     }
+    float least = std::numeric_limits<float>::infinity();
+    for (size_t k = 0; k < 3; ++k) {
+      const float height = cell[2 * k] * slope_b + cell[2 * k + 1] * slope_c;
+      if (!(height < least)) continue;
+      least = height;
+      uv[0] = cell[2 * k];
+      uv[1] = cell[2 * k + 1];
+    }
+    for (size_t axis = 0; axis < D; ++axis) {
+      point[axis] = corners_[axis][query] + (uv[0] * corners_[D + axis][query] + uv[1] * corners_[2 * D + axis][query]);
+    }
+  }
+
+  static void centre_coordinates(const float* cell, float* uv) {
+    uv[0] = (cell[0] + cell[2] + cell[4]) / 3;
+    uv[1] = (cell[1] + cell[3] + cell[5]) / 3;
   }
 
   [[nodiscard]] Region64 region(const QueryTile& tile, size_t q) const {
@@ -183,6 +213,68 @@ class TriangleDomain {
   }
 
  private:
+  /// A corner of a cell: its coordinates, and where it is.
+  struct Corner {
+    V32 u, v;
+    V32 x[D];
+  };
+  /// First corner and edges of the queries of one vector of cells.
+  struct Frame {
+    V32 a[D], ab[D], ac[D];
+    HWY_INLINE Corner corner(V32 u, V32 v) const {
+      Corner c{u, v, {}};
+      for (size_t axis = 0; axis < D; ++axis) c.x[axis] = hn::MulAdd(u, ab[axis], hn::MulAdd(v, ac[axis], a[axis]));
+      return c;
+    }
+  };
+
+  HWY_INLINE Frame frame_of(const uint32_t* query) const {
+    Frame frame;
+    for (size_t axis = 0; axis < D; ++axis) {
+      frame.a[axis] = gather(corners_[axis], query);
+      frame.ab[axis] = gather(corners_[D + axis], query);
+      frame.ac[axis] = gather(corners_[2 * D + axis], query);
+    }
+    return frame;
+  }
+  static HWY_INLINE V32 square_between(const Corner& p, const Corner& q) {
+    V32 sum = hn::Zero(F32());
+    for (size_t axis = 0; axis < D; ++axis) {
+      const auto x = hn::Sub(p.x[axis], q.x[axis]);
+      sum = hn::MulAdd(x, x, sum);
+    }
+    return sum;
+  }
+  static HWY_INLINE Corner pick(M32 m, const Corner& yes, const Corner& no) {
+    Corner c{hn::IfThenElse(m, yes.u, no.u), hn::IfThenElse(m, yes.v, no.v), {}};
+    for (size_t axis = 0; axis < D; ++axis) c.x[axis] = hn::IfThenElse(m, yes.x[axis], no.x[axis]);
+    return c;
+  }
+
+  static HWY_INLINE void write(WaveColumns& wave, size_t at, const Corner& p, const Corner& q, const Corner& r,
+                               bool with_edges) {
+    const F32 d;
+    const Corner* corners[3] = {&p, &q, &r};
+    const auto third = hn::Set(d, 1.0F / 3.0F);
+    V32 square[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    for (size_t axis = 0; axis < D; ++axis) {
+      const auto centre = hn::MulAdd(
+          hn::Add(hn::Sub(q.x[axis], p.x[axis]), hn::Sub(r.x[axis], p.x[axis])), third, p.x[axis]);
+      hn::StoreU(centre, d, wave.centre[axis] + at);
+      for (size_t k = 0; k < 3; ++k) {
+        const auto edge = hn::Sub(corners[k]->x[axis], centre);
+        square[k] = hn::MulAdd(edge, edge, square[k]);
+        if (with_edges) hn::StoreU(edge, d, wave.edges[k * D + axis] + at);
+      }
+    }
+    const auto most = hn::Max(square[0], hn::Max(square[1], square[2]));
+    hn::StoreU(hn::Mul(hn::Sqrt(most), hn::Set(d, 1.000001F)), d, wave.reach + at);
+    for (size_t k = 0; k < 3; ++k) {
+      hn::StoreU(corners[k]->u, d, wave.at[2 * k] + at);
+      hn::StoreU(corners[k]->v, d, wave.at[2 * k + 1] + at);
+    }
+  }
+
   float* corners_[3 * D] = {};
   float* reach_ = nullptr;
   float* largest_ = nullptr;
@@ -195,9 +287,10 @@ class BallDomain {
  public:
   static constexpr size_t kChildren = size_t{1} << D;
   static constexpr int kAxes = D;
+  static constexpr size_t kCoordinates = D + 1;  ///< centre of the box from that of the ball, and half size; in radii
+  static constexpr float kRoot[4] = {0, 0, D == 2 ? 1 : 0, 1};
   static constexpr size_t kEdgeColumns = D;
   static constexpr bool kIsBall = true;
-  static constexpr float kRoot = 0;
 
   void take(Arena& arena, size_t count) {
     for (float*& column : rows_) column = arena.take<float>(padded(count));
@@ -226,44 +319,40 @@ class BallDomain {
     }
   }
 
-  static HWY_INLINE OpenCell child(const OpenCell& p, size_t k) {
-    const float half = p.size * 0.5F;
-    OpenCell c = p;
-    c.size = half;
-    c.u += (k & 1) != 0 ? half : -half;
-    c.v += (k & 2) != 0 ? half : -half;
-    if constexpr (D == 3) c.w += (k & 4) != 0 ? half : -half;
-    return c;
-  }
-
-  void place(const WaveColumns& wave, size_t count, bool) const {
+  void split(const CellList& open, WaveColumns& wave, bool) const {
     const F32 d;
-    const float* offsets[3] = {wave.u, wave.v, wave.w};
-    const auto diagonal = hn::Set(d, D == 2 ? 1.4142137F : 1.7320509F);
-    const auto one = hn::Set(d, 1.0F);
-    for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-      const auto radius = gather(rows_[D], wave.query + i);
-      const auto size = hn::LoadU(d, wave.size + i);
-      auto square = hn::Zero(d);
-      for (size_t axis = 0; axis < D; ++axis) {
-        const auto x = hn::LoadU(d, offsets[axis] + i);
-        square = hn::MulAdd(x, x, square);
+    const auto half = hn::Set(d, 0.5F);
+    for (size_t i = 0; i < open.count; i += hn::Lanes(d)) {
+      const auto radius = gather(rows_[D], open.query + i);
+      const auto size = hn::Mul(hn::LoadU(d, open.at[D] + i), half);
+      for (size_t child = 0; child < kChildren; ++child) {
+        V32 offset[D];
+        for (size_t axis = 0; axis < D; ++axis) {
+          const auto step = (child >> axis & 1) != 0 ? size : hn::Neg(size);
+          offset[axis] = hn::Add(hn::LoadU(d, open.at[axis] + i), step);
+        }
+        write(wave, child * wave.stride + i, open.query + i, {offset, size, radius});
       }
-      const auto distance = hn::Sqrt(square);
-      const auto inward = hn::IfThenElse(hn::Gt(distance, one), hn::Div(hn::Set(d, 0.9999999F), distance), one);
-      const auto half = hn::Mul(size, radius);
-      for (size_t axis = 0; axis < D; ++axis) {
-        const auto offset = hn::Mul(hn::LoadU(d, offsets[axis] + i), radius);
-        const auto moved = hn::Mul(offset, inward);
-        hn::StoreU(hn::Add(gather(rows_[axis], wave.query + i), moved), d, wave.centre[axis] + i);
-        hn::StoreU(hn::Add(half, hn::Abs(hn::Sub(offset, moved))), d, wave.edges[axis] + i);
-      }
-      // A box that misses the ball holds no point of the query.
-      const auto corner = hn::Mul(size, diagonal);
-      const auto misses = hn::Gt(hn::Sub(distance, corner), hn::Set(d, 1.00001F));
-      hn::StoreU(hn::IfThenElse(misses, hn::Set(d, kMisses), hn::Mul(half, diagonal)), d, wave.reach + i);
     }
   }
+
+  /// Where f may be lower than at a cell's centre: a cell's length further down the gradient, within the ball.
+  void probe(uint32_t query, const float* cell, const float* from, const float* gradient, float* point,
+             float* uv) const {
+    const float radius = rows_[D][query];
+    float offset[D];
+    float square = 0;
+    for (size_t axis = 0; axis < D; ++axis) {
+      offset[axis] = from[axis] - rows_[axis][query] - 2 * radius * cell[D] * gradient[axis];
+      square += offset[axis] * offset[axis];
+    }
+    const float length = std::sqrt(square);
+    const float inward = length > radius ? 0.9999999F * radius / length : 1;
+    for (size_t axis = 0; axis < D; ++axis) point[axis] = rows_[axis][query] + inward * offset[axis];
+    uv[0] = uv[1] = 0;
+  }
+
+  static void centre_coordinates(const float*, float* uv) { uv[0] = uv[1] = 0; }
 
   [[nodiscard]] Region64 region(const QueryTile& tile, size_t q) const {
     Region64 region;
@@ -275,6 +364,34 @@ class BallDomain {
   }
 
  private:
+  struct Box {
+    const V32* offset;
+    V32 size, radius;
+  };
+
+  void write(WaveColumns& wave, size_t at, const uint32_t* query, const Box& box) const {
+    const F32 d;
+    const auto one = hn::Set(d, 1.0F);
+    const auto diagonal = hn::Set(d, D == 2 ? 1.4142137F : 1.7320509F);
+    auto square = hn::Zero(d);
+    for (size_t axis = 0; axis < D; ++axis) square = hn::MulAdd(box.offset[axis], box.offset[axis], square);
+    const auto distance = hn::Sqrt(square);
+    const auto inward = hn::IfThenElse(hn::Gt(distance, one), hn::Div(hn::Set(d, 0.9999999F), distance), one);
+    const auto half = hn::Mul(box.size, box.radius);
+    for (size_t axis = 0; axis < D; ++axis) {
+      const auto offset = hn::Mul(box.offset[axis], box.radius);
+      const auto moved = hn::Mul(offset, inward);
+      hn::StoreU(hn::Add(gather(rows_[axis], query), moved), d, wave.centre[axis] + at);
+      hn::StoreU(hn::Add(half, hn::Abs(hn::Sub(offset, moved))), d, wave.edges[axis] + at);
+      hn::StoreU(box.offset[axis], d, wave.at[axis] + at);
+    }
+    hn::StoreU(box.size, d, wave.at[D] + at);
+    // A box that misses the ball holds no point of the query.
+    const auto corner = hn::Mul(box.size, diagonal);
+    const auto misses = hn::Gt(hn::Sub(distance, corner), hn::Set(d, 1.00001F));
+    hn::StoreU(hn::IfThenElse(misses, hn::Set(d, kMisses), hn::Mul(half, diagonal)), d, wave.reach + at);
+  }
+
   float* rows_[D + 1] = {};
   float* largest_ = nullptr;
 };

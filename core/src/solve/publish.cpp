@@ -30,7 +30,7 @@ class Publisher {
     for (std::size_t q = 0; q < tile_.count; ++q) move_to_deepest(q);
     tile_.kernels->value(*tile_.tape, state_.point, tile_.count, state_.value, kernel_scratch_);
     for (std::size_t q = 0; q < tile_.count; ++q) conclude(q);
-    finish(tile_, state_, kernel_scratch_, arena_);
+    tile_.kernels->finish(tile_, state_, kernel_scratch_, arena_);
     if (tile_.columns.claimed == nullptr) return;
     for (std::size_t q = 0; q < tile_.count; ++q) {
       tile_.columns.claimed[q] = state_.is_bad[q] == 0 && value_[q] < radius(q) ? 1 : 0;

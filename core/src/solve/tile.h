@@ -37,14 +37,11 @@ struct QueryTile {
 struct TriangleTile : QueryTile {};
 struct CircleTile : QueryTile {};
 
-/// One open piece of a query's region, in the coordinates of its domain: a triangle's corner (u, v) and signed size in
-/// barycentric units, or a box's centre (u, v, w) and half size in radii.
-struct OpenCell {
-  std::uint32_t query;  ///< row of the tile
-  std::uint32_t level;  ///< how many splits made it
-  float u, v, w;
-  float size;
-  float lower;  ///< proven lower bound of f over it
+/// A cell that waits for its query's turn (certify.inl).
+struct WaitingCell {
+  std::uint32_t query;
+  std::uint32_t level;
+  float at[6];
 };
 
 /// A worker's memory, reused from tile to tile.
@@ -53,9 +50,10 @@ struct TileScratch {
   Arena arena;
   Arena probes;  ///< of one gradient evaluation
   Twin twin;
-  std::vector<OpenCell> waiting;  ///< cells that the current wave cannot hold
+  std::vector<WaitingCell> waiting;  ///< cells that the current wave cannot hold
   struct HeapCell {
-    double lo, u, v, w, size;
+    double lo;     ///< lower bound of f over it
+    double at[6];  ///< triangle: barycentric u, v of its corners; box: centre and half size in radii
   };
   std::vector<HeapCell> heap;  ///< of the search in double
 };

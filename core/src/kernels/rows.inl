@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: The thalweg authors
+// SPDX-License-Identifier: MIT
+//
+// Chunks of row-major points, in and out of the lanes. Rows that cannot be answered (a coordinate that is not finite,
+// or beyond kLargestCoordinate) are evaluated at the origin and written as NaN. Included once per SIMD target.
+#if defined(THALWEG_KERNELS_ROWS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef THALWEG_KERNELS_ROWS_INL
+#undef THALWEG_KERNELS_ROWS_INL
+#else
+#define THALWEG_KERNELS_ROWS_INL
+#endif
+
+#include <algorithm>
+#include <limits>
+
+#include "kernels/interpreter.inl"
+
+HWY_BEFORE_NAMESPACE();
+namespace thalweg {
+namespace HWY_NAMESPACE {
+
+HWY_INLINE void load_interleaved(const float* rows, Point<Pack<1>, 2>& p) {
+  hn::LoadInterleaved2(F32(), rows, p.x.v, p.y.v);
+}
+HWY_INLINE void load_interleaved(const float* rows, Point<Pack<1>, 3>& p) {
+  hn::LoadInterleaved3(F32(), rows, p.x.v, p.y.v, p.z.v);
+}
+HWY_INLINE void store_interleaved(const Point<Pack<1>, 2>& p, float* rows) {
+  hn::StoreInterleaved2(p.x.v, p.y.v, F32(), rows);
+}
+HWY_INLINE void store_interleaved(const Point<Pack<1>, 3>& p, float* rows) {
+  hn::StoreInterleaved3(p.x.v, p.y.v, p.z.v, F32(), rows);
+}
+template <int W>
+HWY_INLINE void load_interleaved(const float* rows, Point<Pack<W>, 2>& p) {
+  Point<Pack<W / 2>, 2> lo, hi;
+  load_interleaved(rows, lo);
+  load_interleaved(rows + 2 * pack_lanes<W / 2>(), hi);
+  p = {{lo.x, hi.x}, {lo.y, hi.y}};
+}
+template <int W>
+HWY_INLINE void load_interleaved(const float* rows, Point<Pack<W>, 3>& p) {
+  Point<Pack<W / 2>, 3> lo, hi;
+  load_interleaved(rows, lo);
+  load_interleaved(rows + 3 * pack_lanes<W / 2>(), hi);
+  p = {{lo.x, hi.x}, {lo.y, hi.y}, {lo.z, hi.z}};
+}
+template <int W>
+HWY_INLINE void store_interleaved(const Point<Pack<W>, 2>& p, float* rows) {
+  store_interleaved(Point<Pack<W / 2>, 2>{p.x.lo, p.y.lo}, rows);
+  store_interleaved(Point<Pack<W / 2>, 2>{p.x.hi, p.y.hi}, rows + 2 * pack_lanes<W / 2>());
+}
+template <int W>
+HWY_INLINE void store_interleaved(const Point<Pack<W>, 3>& p, float* rows) {
+  store_interleaved(Point<Pack<W / 2>, 3>{p.x.lo, p.y.lo, p.z.lo}, rows);
+  store_interleaved(Point<Pack<W / 2>, 3>{p.x.hi, p.y.hi, p.z.hi}, rows + 3 * pack_lanes<W / 2>());
+}
+
+template <class T, int D>
+HWY_INLINE Point<T, D> splat(T a) {
+  if constexpr (D == 2) {
+    return {a, a};
+  } else {
+    return {a, a, a};
+  }
+}
+/// A comparison with NaN is false, so each coordinate is asked on its own.
+template <class T>
+HWY_INLINE auto is_answerable(Point<T, 2> p) {
+  const T limit = Make<T>::set(kLargestCoordinate);
+  return both(abs(p.x) <= limit, abs(p.y) <= limit);
+}
+template <class T>
+HWY_INLINE auto is_answerable(Point<T, 3> p) {
+  const T limit = Make<T>::set(kLargestCoordinate);
+  return both(abs(p.x) <= limit, both(abs(p.y) <= limit, abs(p.z) <= limit));
+}
+
+HWY_INLINE size_t count_true(PackMask<1> m) { return hn::CountTrue(F32(), m.m); }
+template <int W>
+HWY_INLINE size_t count_true(PackMask<W> m) {
+  return count_true(m.lo) + count_true(m.hi);
+}
+
+/// Calls `body(rows, first, count)` chunk by chunk; the last, partial one is read from a buffer padded with zeros.
+template <class T, int D, class Body>
+HWY_INLINE void for_each_chunk(const float* rows, size_t count, Body&& body) {
+  const size_t lanes = lanes_of<T>();
+  size_t i = 0;
+  for (; i + lanes <= count; i += lanes) body(rows + i * D, i, lanes);
+  if (i == count) return;
+  float tail[D * kMostChunkLanes] = {};
+  std::copy_n(rows + i * D, (count - i) * D, tail);
+  body(tail, i, count - i);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace thalweg
+HWY_AFTER_NAMESPACE();
+
+#endif
