@@ -270,10 +270,11 @@ HWY_INLINE Point<T, 3> select(M m, Point<T, 3> yes, Point<T, 3> no) {
   return {select(m, yes.x, no.x), select(m, yes.y, no.y), select(m, yes.z, no.z)};
 }
 
-/// 1 / a, and 0 where a is 0: a length's reciprocal that never gives NaN.
+/// 1 / a for a length, and 0 where it is 0 or so short that its square has lost digits: never NaN, and a residual
+/// scaled by it is never longer than 1.
 template <class T>
 HWY_INLINE T reciprocal_or_zero(T a) {
-  return select(zero<T>() < a, one<T>() / a, zero<T>());
+  return select(Make<T>::set(0x1p-62) < a, one<T>() / a, zero<T>());
 }
 
 /// sign(a) as +-1, never 0.

@@ -32,8 +32,8 @@ HWY_INLINE Foot<T, D> foot_on_edge(Point<T, D> w, Point<T, D> edge, T inverse_sq
   return {along, w - scaled(edge, along)};
 }
 
-/// 1 / a, or 0 where the square of a length is too small for float32.
-inline double inverse_or_zero(double square) { return square < 1e-30 ? 0.0 : 1.0 / square; }
+/// 1 / a, or 0 where a, the square of a length, is too small for float32: an edge below 2^-62 is a point.
+inline double inverse_or_zero(double square) { return square < 0x1p-124 ? 0.0 : 1.0 / square; }
 
 /// Which side of the ray from the origin along (sine, cosine) a point with x >= 0 lies on: positive beyond the wedge
 /// around +y. Behind the apex the axis decides too, which keeps the sign right for wedges of any width.
@@ -173,25 +173,31 @@ THALWEG_OP {
   static HWY_INLINE Field<T, 2> field(Point<T, 2> p, Constants<T> c) {
     T square = Make<T>::set(3e38);
     T side = Make<T>::set(-3e38);
+    T along = zero<T>();
     Point<T, 2> residual = {zero<T>(), zero<T>()};
-    Point<T, 2> normal = residual;
+    Point<T, 2> nearest = residual;
+    Point<T, 2> highest = residual;
     for (size_t i = 0; i < 21; i += 7) {
       const Point<T, 2> w = {p.x - c[i], p.y - c[i + 1]};
       const Point<T, 2> n = {c[i + 5], c[i + 6]};
       const auto foot = foot_on_edge<T, 2>(w, {c[i + 2], c[i + 3]}, c[i + 4]);
       const T squared = dot(foot.residual, foot.residual);
-      residual = select(squared < square, foot.residual, residual);
+      const auto nearer = squared < square;
+      residual = select(nearer, foot.residual, residual);
+      nearest = select(nearer, n, nearest);
+      along = select(nearer, foot.along, along);
       square = min(square, squared);
       const T height = dot(w, n);
-      normal = select(side < height, n, normal);
+      highest = select(side < height, n, highest);
       side = max(side, height);
     }
-    // Inside, the nearest edge is the one of greatest height; outside, on a face, the residual is along its normal.
+    // Inside, the edge of greatest height is the nearest one. Outside, the normal of a face is exact where the
+    // residual of a point close to it is noise.
     const auto is_outside = zero<T>() < side;
     const T distance = sqrt(square);
-    const auto on_face = either(side <= zero<T>(), distance <= side);
-    const Point<T, 2> direction = scaled(residual, reciprocal_or_zero(distance));
-    return {select(is_outside, distance, side), select(on_face, normal, direction)};
+    const auto on_face = both(zero<T>() < along, along < one<T>());
+    const Point<T, 2> direction = select(on_face, nearest, scaled(residual, reciprocal_or_zero(distance)));
+    return {select(is_outside, distance, side), select(is_outside, direction, highest)};
   }
   template <class T>
   static HWY_INLINE T support(Point<T, 2> u, Constants<T> c) {

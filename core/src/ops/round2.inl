@@ -230,7 +230,9 @@ THALWEG_OP {
   /// offset, ra, rb, corner (2).
   static void derive(Numbers p, Constants64 & c) {
     const double x = (p[0] + (p[1] - p[2]) * (p[1] + p[2]) / p[0]) / 2;
-    c = {p[0], p[1], p[2], x, std::sqrt(std::max(0.0, (p[1] - x) * (p[1] + x)))};
+    // Heron's formula for the height of the triangle of both centres and the corner: no cancellation for a small rb.
+    const double product = (p[0] + p[1] - p[2]) * (p[0] - p[1] + p[2]) * (p[1] + p[2] - p[0]) * (p[0] + p[1] + p[2]);
+    c = {p[0], p[1], p[2], x, std::sqrt(std::max(0.0, product)) / (2 * p[0])};
   }
 
   template <class T>

@@ -22,10 +22,10 @@ std::string line_and_column(std::string_view text, std::size_t position) {
   return std::to_string(line) + ":" + std::to_string(before.size() - start + 1);
 }
 
-/// What the library says of a fault, without its own prefix and position.
+/// What the library says of a fault, without its own name, number and position.
 std::string plain(std::string_view what) {
+  if (const auto bracket = what.find("] "); bracket != std::string_view::npos) what.remove_prefix(bracket + 2);
   if (const auto colon = what.find(": "); colon != std::string_view::npos) what.remove_prefix(colon + 2);
-  if (const auto dash = what.find("; "); dash != std::string_view::npos) what = what.substr(0, dash);
   if (const auto dash = what.find(" - "); dash != std::string_view::npos) what.remove_prefix(dash + 3);
   std::string text(what);
   std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }, ' ');

@@ -29,9 +29,14 @@ EdgePoint closest_on_edge(const float* from, const float* to, const float* p, st
   return {along, square};
 }
 
-float dot_of(const float* a, const float* a0, const float* b, const float* b0, std::size_t dimension) {
-  float sum = 0;
-  for (std::size_t axis = 0; axis < dimension; ++axis) sum += (a[axis] - a0[axis]) * (b[axis] - b0[axis]);
+/// In double: the differences of float32 coordinates are exact there, so a flat triangle shows as one.
+double dot_of(const float* a, const float* a0, const float* b, const float* b0, std::size_t dimension) {
+  double sum = 0;
+  for (std::size_t axis = 0; axis < dimension; ++axis) {
+    const double x = static_cast<double>(a[axis]) - static_cast<double>(a0[axis]);
+    const double y = static_cast<double>(b[axis]) - static_cast<double>(b0[axis]);
+    sum += x * y;
+  }
   return sum;
 }
 
@@ -41,16 +46,18 @@ Barycentric closest_point(const float* corners, const float* p, std::size_t dime
   const float* a = corners;
   const float* b = corners + dimension;
   const float* c = corners + 2 * dimension;
-  const float bb = dot_of(b, a, b, a, dimension);
-  const float bc = dot_of(b, a, c, a, dimension);
-  const float cc = dot_of(c, a, c, a, dimension);
-  const float pb = dot_of(p, a, b, a, dimension);
-  const float pc = dot_of(p, a, c, a, dimension);
-  const float determinant = bb * cc - bc * bc;
-  if (determinant > 1e-12F * bb * cc) {
-    const float u = (cc * pb - bc * pc) / determinant;
-    const float v = (bb * pc - bc * pb) / determinant;
-    if (u >= 0 && v >= 0 && u + v <= 1) return {1 - u - v, u, v};
+  const double bb = dot_of(b, a, b, a, dimension);
+  const double bc = dot_of(b, a, c, a, dimension);
+  const double cc = dot_of(c, a, c, a, dimension);
+  const double pb = dot_of(p, a, b, a, dimension);
+  const double pc = dot_of(p, a, c, a, dimension);
+  const double determinant = bb * cc - bc * bc;
+  if (determinant > 1e-12 * bb * cc) {
+    const double u = (cc * pb - bc * pc) / determinant;
+    const double v = (bb * pc - bc * pb) / determinant;
+    if (u >= 0 && v >= 0 && u + v <= 1) {
+      return {static_cast<float>(1 - u - v), static_cast<float>(u), static_cast<float>(v)};
+    }
   }
   const EdgePoint ab = closest_on_edge(a, b, p, dimension);
   const EdgePoint ac = closest_on_edge(a, c, p, dimension);
