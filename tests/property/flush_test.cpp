@@ -83,11 +83,12 @@ TEST(FlushTriangle, OverlapsBelowTheFace) {
   }
 }
 
-TEST(FlushTriangle, TouchesInTheFace) {
+// A sign would be a better answer than touching, so half of the budget may go into looking for one.
+TEST(FlushTriangle, TouchesInTheFaceWithinHalfTheBudget) {
   for (const Flush& flush : flush_cases()) {
     const Answer answer = ask(flush, 0, Goal::verdict);
     EXPECT_EQ(answer.status, Status::touching) << flush.name;
-    EXPECT_LE(answer.evaluations, 256U) << flush.name;
+    EXPECT_LE(answer.evaluations, CollideOptions().budget / 2) << flush.name;
   }
 }
 
@@ -98,7 +99,8 @@ TEST(FlushTriangle, ConvergesToTheGap) {
       EXPECT_TRUE(answer.converged) << flush.name << " gap " << gap;
       EXPECT_NEAR(answer.value, gap, 1.1e-4) << flush.name;
       EXPECT_LE(answer.lower, gap + 1e-6) << flush.name;
-      EXPECT_LE(answer.evaluations, 256U) << flush.name << " gap " << gap;
+      const std::uint32_t enough = gap == 0 ? CollideOptions().budget / 2 : 256U;
+      EXPECT_LE(answer.evaluations, enough) << flush.name << " gap " << gap;
     }
   }
 }

@@ -55,7 +55,7 @@ struct Scene {
   /// floor is level (the middle of a ring, a stroke or a wall) every cell of the floor's length stays open.
   double unconverged;
 };
-void PrintTo(const Scene& scene, std::ostream* out) { *out << scene.name; }
+std::ostream& operator<<(std::ostream& out, const Scene& scene) { return out << scene.name; }
 
 const Scene kScenes[] = {
     {"thesis", [] { return scene_file("small"); }, 1e-3},

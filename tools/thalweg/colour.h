@@ -14,8 +14,8 @@ namespace thalweg::cli {
 struct Colour {
   float r = 0, g = 0, b = 0;
 
-  friend Colour operator+(Colour a, Colour b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
-  friend Colour operator*(Colour a, float s) { return {a.r * s, a.g * s, a.b * s}; }
+  friend Colour operator+(Colour x, Colour y) { return {x.r + y.r, x.g + y.g, x.b + y.b}; }
+  friend Colour operator*(Colour x, float s) { return {x.r * s, x.g * s, x.b * s}; }
 };
 
 /// `a` at 0, `b` at 1.

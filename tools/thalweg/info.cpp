@@ -102,11 +102,11 @@ Json scene_json(const InfoOptions& options, const Shape& shape, const Tape& tape
 
 std::string bounds_text(const Bounds& bounds, int dimension) {
   if (bounds.empty(dimension)) return "empty";
-  std::vector<std::string> sides;
+  std::string sides;
   for (int axis = 0; axis < dimension; ++axis) {
-    sides.push_back(fmt::format("[{:.6g}, {:.6g}]", bounds.lo[axis], bounds.hi[axis]));
+    sides += fmt::format("{}[{:.6g}, {:.6g}]", axis == 0 ? "" : " x ", bounds.lo[axis], bounds.hi[axis]);
   }
-  return fmt::format("{}", fmt::join(sides, " x "));
+  return sides;
 }
 
 std::string yes_no(bool value) { return value ? "yes" : "no"; }

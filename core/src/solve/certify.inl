@@ -92,7 +92,9 @@ class Certifier {
       conclude();
       compact();
     }
-    for (size_t i = 0; i < hard_count_; ++i) decide_in_double(hard_[i]);
+    for (size_t i = 0; i < hard_count_; ++i) {
+      decide_in_double(domain_.region(tile_, hard_[i]), limits_, state_, hard_[i], scratch_);
+    }
     tile_.kernels->finish(tile_, state_, kernel_scratch_, scratch_.arena);
   }
 
@@ -375,7 +377,7 @@ class Certifier {
       const float lower = std::min(state_.lower[q], p.open_lower);
       const size_t next = p.open * kChildren;
       const bool spent = next > limits_.budget || state_.evaluations[q] > limits_.budget - next;
-      const bool reached = goal_reached(q, lower);
+      const bool reached = goal_reached(limits_, state_, q, lower);
       if (spent || (reached && state_.evaluations[q] > limits_.budget / kTouchingEffort)) {
         state_.lower[q] = lower;
         state_.converged[q] = reached ? 1 : 0;
@@ -387,12 +389,6 @@ class Certifier {
         p.keeps = true;
       }
     }
-  }
-
-  /// Short of a proven sign the goal is reached within tolerance: what is left is to prove more.
-  [[nodiscard]] bool goal_reached(uint32_t q, float lower) const {
-    if (wants_deepest()) return state_.value[q] - lower <= tolerance_;
-    return state_.value[q] + state_.slack[q] <= tolerance_ && lower >= -tolerance_;
   }
 
   void compact() {
@@ -449,36 +445,6 @@ class Certifier {
     std::reverse(waiting.begin() + static_cast<std::ptrdiff_t>(before), waiting.end());
     std::stable_sort(waiting.begin() + static_cast<std::ptrdiff_t>(before), waiting.end(),
                      [](const WaitingCell& a, const WaitingCell& b) { return a.query > b.query; });
-  }
-
-  // --- what float32 cannot decide ---------------------------------------------------------------------------------------
-
-  void decide_in_double(uint32_t q) {
-    const Region64 region = domain_.region(tile_, q);
-    Decision best;
-    for (int axis = 0; axis < Domain::kAxes; ++axis) best.point[axis] = state_.point[axis][q];
-    best.u = state_.barycentric[0][q];
-    best.v = state_.barycentric[1][q];
-    const Decision found = decide(region, limits_, best, limits_.budget - state_.evaluations[q], scratch_);
-    state_.evaluations[q] += found.evaluations;
-    state_.iterations[q] += 1;
-    const bool had_witness = state_.witness[q] != 0;
-    if (had_witness ? found.value < state_.value[q] && found.witness : true) {
-      for (int axis = 0; axis < Domain::kAxes; ++axis) state_.point[axis][q] = found.point[axis];
-      state_.value[q] = static_cast<float>(found.value);
-      state_.barycentric[0][q] = static_cast<float>(found.u);
-      state_.barycentric[1][q] = static_cast<float>(found.v);
-      state_.witness[q] = found.witness || had_witness ? 1 : 0;
-    }
-    state_.lower[q] = std::max(state_.lower[q], rounded_down(found.lower));
-    // What is said from here on has double's slack.
-    state_.slack[q] = static_cast<float>(limits_.slack64(domain_.largest()[q]) * 1.001);
-    state_.converged[q] = found.closed || goal_reached(q, state_.lower[q]) ? 1 : 0;
-  }
-
-  static float rounded_down(double x) {
-    const auto nearest = static_cast<float>(x);
-    return static_cast<double>(nearest) > x ? std::nextafter(nearest, -kInfinite) : nearest;
   }
 
   const QueryTile& tile_;

@@ -20,6 +20,21 @@ constexpr std::uint32_t kMostPerVisit = 5;
 /// Open cells held at once: 64 MB at the most, whatever the budget.
 constexpr std::size_t kMostCells = std::size_t{1} << 20;
 
+struct Decision {
+  double value = 0;      ///< f at `point`
+  double lower = 0;      ///< proven lower bound of f over the region
+  float point[3] = {};   ///< the deepest point found, as reported
+  double u = 0, v = 0;   ///< its barycentric coordinates of the second and third corner
+  bool witness = false;  ///< f < 0 is proven at `point` and at the point of the region that it was rounded from
+  bool closed = false;   ///< the goal was reached
+  std::uint32_t evaluations = 0;
+};
+
+float rounded_down(double x) {
+  const auto nearest = static_cast<float>(x);
+  return static_cast<double>(nearest) > x ? std::nextafter(nearest, -std::numeric_limits<float>::infinity()) : nearest;
+}
+
 bool higher(const HeapCell& a, const HeapCell& b) { return a.lo > b.lo; }
 
 class Search {
@@ -34,6 +49,8 @@ class Search {
     }
     slack_ = limits.slack64(largest + region.radius);
   }
+
+  [[nodiscard]] double slack() const { return slack_; }
 
   Decision run(const Decision& start, std::uint32_t evaluations) {
     best_ = start;
@@ -231,9 +248,34 @@ class Search {
 
 bool can_decide(std::uint32_t evaluations) { return evaluations > kMostPerVisit; }
 
-Decision decide(const Region64& region, const SolveLimits& limits, const Decision& best, std::uint32_t evaluations,
-                TileScratch& scratch) {
-  return Search(region, limits, scratch).run(best, evaluations);
+bool goal_reached(const SolveLimits& limits, const QueryState& state, std::size_t q, float lower) {
+  const auto tolerance = static_cast<float>(limits.tolerance);
+  if (limits.goal == Goal::deepest) return state.value[q] - lower <= tolerance;
+  return state.value[q] + state.slack[q] <= tolerance && lower >= -tolerance;
+}
+
+void decide_in_double(const Region64& region, const SolveLimits& limits, QueryState& state, std::size_t q,
+                      TileScratch& scratch) {
+  Decision start;
+  for (int axis = 0; axis < region.dimension; ++axis) start.point[axis] = state.point[axis][q];
+  start.u = static_cast<double>(state.barycentric[0][q]);
+  start.v = static_cast<double>(state.barycentric[1][q]);
+  Search search(region, limits, scratch);
+  const Decision found = search.run(start, limits.budget - state.evaluations[q]);
+  state.evaluations[q] += found.evaluations;
+  state.iterations[q] += 1;
+  const bool had_witness = state.witness[q] != 0;
+  if (!had_witness || (found.witness && found.value < static_cast<double>(state.value[q]))) {
+    for (int axis = 0; axis < region.dimension; ++axis) state.point[axis][q] = found.point[axis];
+    state.value[q] = static_cast<float>(found.value);
+    state.barycentric[0][q] = static_cast<float>(found.u);
+    state.barycentric[1][q] = static_cast<float>(found.v);
+    state.witness[q] = found.witness || had_witness ? 1 : 0;
+  }
+  state.lower[q] = std::max(state.lower[q], rounded_down(found.lower));
+  // What is said from here on has double's slack.
+  state.slack[q] = static_cast<float>(search.slack() * 1.001);
+  state.converged[q] = found.closed || goal_reached(limits, state, q, state.lower[q]) ? 1 : 0;
 }
 
 }  // namespace thalweg

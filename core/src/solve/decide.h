@@ -4,6 +4,7 @@
 // Branch and bound in double for the few queries that float32 cannot decide.
 #pragma once
 
+#include "solve/finish.h"
 #include "solve/tile.h"
 
 namespace thalweg {
@@ -16,21 +17,14 @@ struct Region64 {
   double radius = 0;
 };
 
-struct Decision {
-  double value = 0;      ///< f at `point`
-  double lower = 0;      ///< proven lower bound of f over the region
-  float point[3] = {};   ///< the deepest point found, as reported
-  double u = 0, v = 0;   ///< its barycentric coordinates of the second and third corner
-  bool witness = false;  ///< f < 0 is proven at `point` and at the point of the region that it was rounded from
-  bool closed = false;   ///< the goal was reached
-  std::uint32_t evaluations = 0;
-};
-
 /// Whether a budget is enough to begin.
 [[nodiscard]] bool can_decide(std::uint32_t evaluations);
 
-/// Searches within `evaluations` evaluations, starting from the incumbent in `best`.
-[[nodiscard]] Decision decide(const Region64& region, const SolveLimits& limits, const Decision& best,
-                              std::uint32_t evaluations, TileScratch& scratch);
+/// Searches on for query q of a tile with what is left of its budget, and puts what is found into its state.
+void decide_in_double(const Region64& region, const SolveLimits& limits, QueryState& state, std::size_t q,
+                      TileScratch& scratch);
+
+/// Short of a proven sign, whether a lower bound ends the search for query q: what is left is to prove more.
+[[nodiscard]] bool goal_reached(const SolveLimits& limits, const QueryState& state, std::size_t q, float lower);
 
 }  // namespace thalweg
