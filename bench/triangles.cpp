@@ -25,7 +25,7 @@ namespace thalweg::bench {
 namespace {
 
 constexpr std::size_t kTriangles = std::size_t{1} << 20;
-constexpr std::size_t kDeepestTriangles = std::size_t{1} << 17;
+constexpr std::size_t kDeepestTriangles = std::size_t{1} << 15;
 constexpr std::size_t kThesisTriangles = 1024;  // a round; more would only make rounds longer
 constexpr std::size_t kSample = 5000;           // of the answers that the oracle checks
 

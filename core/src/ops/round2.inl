@@ -119,10 +119,10 @@ THALWEG_OP {
     const T side = wedge_side(q, ray);
     const T edge = copysign(distance, side);
     const auto on_arc = either(edge <= arc, zero<T>() < c[3]);
-    const auto interior = both(zero<T>() < along, along < c[2]);
-    const Point<T, 2> corner = scaled(residual, copysign(reciprocal_or_zero(distance), side));
-    const Point<T, 2> flat = select(interior, Point<T, 2>{ray.y, -ray.x}, corner);
-    const Point<T, 2> g = select(on_arc, scaled(q, reciprocal_or_zero(r)), flat);
+    const auto on_flat = both(zero<T>() < along, along < c[2]);
+    const T inverse = reciprocal_or_zero(select(on_arc, r, distance));
+    const Point<T, 2> radial = scaled(select(on_arc, q, residual), select(on_arc, inverse, copysign(inverse, side)));
+    const Point<T, 2> g = select(on_arc, radial, select(on_flat, Point<T, 2>{ray.y, -ray.x}, radial));
     return {select(on_arc, arc, edge), {g.x * sign_of(p.x), g.y}};
   }
   template <class T>
@@ -161,13 +161,13 @@ THALWEG_OP {
     const Point<T, 2> q = {abs(p.x), p.y};
     const Point<T, 2> ray = {c[0], c[1]};
     const auto past_end = both(zero<T>() < wedge_side(q, ray), c[4] <= zero<T>());
-    const T r = length(p);
+    // Beyond an end the distance to it counts, else the distance to the centre: one of the two is computed.
+    const Point<T, 2> from = select(past_end, q - scaled(ray, c[2]), q);
+    const T r = length(from);
     const T radial = r - c[2];
-    const Point<T, 2> residual = q - scaled(ray, c[2]);
-    const T end = length(residual);
-    const Point<T, 2> g = select(past_end, scaled(residual, reciprocal_or_zero(end)),
-                                 scaled(q, copysign(reciprocal_or_zero(r), radial)));
-    return {select(past_end, end, abs(radial)) - c[3], {g.x * sign_of(p.x), g.y}};
+    const T inverse = reciprocal_or_zero(r);
+    const Point<T, 2> g = scaled(from, select(past_end, inverse, copysign(inverse, radial)));
+    return {select(past_end, r, abs(radial)) - c[3], {g.x * sign_of(p.x), g.y}};
   }
 };
 
@@ -203,14 +203,12 @@ THALWEG_OP {
     const T distance = length(Point<T, 2>{across, past});
     const T end = copysign(distance, wedge_side(q, ray));
     const auto on_side = either(end <= radial, zero<T>() < c[4]);
-    const T inverse = copysign(reciprocal_or_zero(distance), end);
-    const auto flat = past <= zero<T>();
-    const T g_across = select(flat, one<T>(), across * inverse);
-    const T g_along = copysign(past * reciprocal_or_zero(distance), along);
+    const T inverse = reciprocal_or_zero(select(on_side, r, distance));
+    const T g_across = select(past <= zero<T>(), one<T>(), across * copysign(inverse, end));
+    const T g_along = copysign(past * inverse, along);
     const Point<T, 2> g_end = {mul_add(g_across, ray.y, g_along * ray.x),
                                neg_mul_add(g_across, ray.x, g_along * ray.y)};
-    const Point<T, 2> g =
-        select(on_side, scaled(q, copysign(reciprocal_or_zero(r), r - c[2])), g_end);
+    const Point<T, 2> g = select(on_side, scaled(q, copysign(inverse, r - c[2])), g_end);
     return {select(on_side, radial, end), {g.x * sign_of(p.x), g.y}};
   }
 };
@@ -243,16 +241,15 @@ THALWEG_OP {
     const T beyond_a = mul_sub(q.x, c[4], q.y * c[3]);
     const T beyond_b = mul_sub(from_b.x, c[4], q.y * (c[3] - c[0]));
     const auto at_corner = both(zero<T>() < select(c[4] <= q.y, beyond_a, beyond_b), zero<T>() < c[4]);
-    const Point<T, 2> residual = {q.x - c[3], q.y - c[4]};
-    const T corner = length(residual);
-    const T ra = length(q);
+    const Point<T, 2> from_a = select(at_corner, Point<T, 2>{q.x - c[3], q.y - c[4]}, q);
+    const T ra = length(from_a);
     const T rb = length(from_b);
     const T outer = ra - c[1];
     const T inner = c[2] - rb;
-    const Point<T, 2> g_disc = select(inner <= outer, scaled(q, reciprocal_or_zero(ra)),
-                                      scaled(from_b, -reciprocal_or_zero(rb)));
-    const Point<T, 2> g = select(at_corner, scaled(residual, reciprocal_or_zero(corner)), g_disc);
-    return {select(at_corner, corner, max(outer, inner)), {g.x, g.y * sign_of(p.y)}};
+    const auto on_a = either(at_corner, inner <= outer);
+    const T inverse = reciprocal_or_zero(select(on_a, ra, rb));
+    const Point<T, 2> g = scaled(select(on_a, from_a, from_b), select(on_a, inverse, -inverse));
+    return {select(at_corner, ra, max(outer, inner)), {g.x, g.y * sign_of(p.y)}};
   }
 };
 

@@ -153,7 +153,8 @@ class SceneParser {
       if (!parameter.implicit) known += ", " + std::string(parameter.name);
     }
     if (entry.row.kind != OpKind::primitive) known += ", of";
-    for (const auto& [key, unused] : value.items()) {
+    for (const auto& item : value.items()) {
+      const std::string& key = item.key();
       const bool is_parameter = std::ranges::any_of(
           entry.row.parameters, [&](const OpParameter& p) { return !p.implicit && p.name == key; });
       if (key == "op" || is_parameter || (key == "of" && entry.row.kind != OpKind::primitive)) continue;

@@ -15,6 +15,8 @@ struct Word {
   std::string_view text;
   Enum value;
 };
+template <class Enum>
+Word(const char*, Enum) -> Word<Enum>;
 
 constexpr std::array kMethods = {Word{"certified", Method::certified}, Word{"thesis", Method::thesis},
                                  Word{"projected", Method::projected}, Word{"descent", Method::projected},
