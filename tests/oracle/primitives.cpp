@@ -131,10 +131,13 @@ double moon(const double* n, std::size_t, Vec p) {
   const double offset = n[0], ra = n[1], rb = n[2];
   p = {p.x, std::abs(p.y), 0};
   const double x = (ra * ra - rb * rb + offset * offset) / (2 * offset);
+  // Height of the horn over the axis, by Pythagoras in the smaller circle: in the larger one its digits cancel.
+  const double from_b = ((offset - ra) * (offset + ra) + rb * rb) / (2 * offset);
+  const double square = rb < ra ? (rb - from_b) * (rb + from_b) : (ra - x) * (ra + x);
   const double outer = std::hypot(p.x, p.y) - ra;
   const double inner = rb - std::hypot(p.x - offset, p.y);
   if (std::abs(x) >= ra) return std::max(outer, inner);
-  const Vec horn{x, std::sqrt(ra * ra - x * x), 0};
+  const Vec horn{x, std::sqrt(std::max(square, 0.0)), 0};
   // Each arc counts only where the foot of the perpendicular on its circle belongs to the moon's outline.
   const double to_outer = std::hypot(p.x, p.y);
   const bool outer_foot = to_outer == 0 || (p.x / to_outer * ra <= x) == (offset > 0);

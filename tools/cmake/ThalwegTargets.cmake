@@ -26,6 +26,8 @@ function(thalweg_configure target)
             -Wpedantic
             -Wshadow
             -Wconversion
+            # What g++ means by -Wconversion.
+            $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>
             # g++ 12 sees overlapping copies in concatenated std::strings (GCC bug 105329).
             $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 endfunction()
