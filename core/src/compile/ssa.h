@@ -42,7 +42,7 @@ struct Ssa {
 };
 
 /// At most this many operations; a scene that needs more is refused.
-inline constexpr std::size_t kMostValues = 4'000'000;
+inline constexpr std::size_t kMostValues = 250'000;
 
 [[nodiscard]] Result<Ssa> to_ssa(const Shape& shape);
 

@@ -159,7 +159,11 @@ class Certifier {
     auto& waiting = scratch_.waiting;
     for (size_t i = open_count; i-- > 0;) {
       const uint32_t q = touched_[i];
-      WaitingCell cell{q, 0, {}};
+      if (state_.evaluations[q] + kChildren > limits_.budget) {
+        state_.converged[q] = goal_reached(limits_, state_, q, state_.lower[q]) ? 1 : 0;
+        continue;
+      }
+      WaitingCell cell{q, 0, 0, {}};
       std::copy_n(Domain::kRoot, kCoordinates, cell.at);
       waiting.push_back(cell);
       state_.lower[q] = kInfinite;
@@ -375,6 +379,8 @@ class Certifier {
         continue;
       }
       const float lower = std::min(state_.lower[q], p.open_lower);
+      // float32 can tell no more when no bound is further below the incumbent than its slack lets it seem.
+      p.unresolved = p.unresolved || p.open_lower >= state_.value[q] - 2 * state_.slack[q];
       const size_t next = p.open * kChildren;
       const bool spent = next > limits_.budget || state_.evaluations[q] > limits_.budget - next;
       const bool reached = goal_reached(limits_, state_, q, lower);
@@ -435,16 +441,17 @@ class Certifier {
         for (size_t k = 0; k < kCoordinates; ++k) next_.at[k][kept] = next_.at[k][i];
         ++kept;
       } else {
-        WaitingCell cell{q, level_, {}};
+        WaitingCell cell{q, level_, static_cast<uint32_t>(i), {}};
         for (size_t k = 0; k < kCoordinates; ++k) cell.at[k] = next_.at[k][i];
         waiting.push_back(cell);
       }
     }
     next_.count = kept;
     // Whole queries side by side, each in the order of its cells when taken from the end.
-    std::reverse(waiting.begin() + static_cast<std::ptrdiff_t>(before), waiting.end());
-    std::stable_sort(waiting.begin() + static_cast<std::ptrdiff_t>(before), waiting.end(),
-                     [](const WaitingCell& a, const WaitingCell& b) { return a.query > b.query; });
+    std::sort(waiting.begin() + static_cast<std::ptrdiff_t>(before), waiting.end(),
+              [](const WaitingCell& a, const WaitingCell& b) {
+                return a.query != b.query ? a.query > b.query : a.order > b.order;
+              });
   }
 
   const QueryTile& tile_;

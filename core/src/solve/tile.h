@@ -41,6 +41,7 @@ struct CircleTile : QueryTile {};
 struct WaitingCell {
   std::uint32_t query;
   std::uint32_t level;
+  std::uint32_t order;  ///< among the query's cells
   float at[6];
 };
 
