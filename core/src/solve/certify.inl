@@ -44,8 +44,6 @@ inline constexpr size_t kWaveCells = 8192;
 inline constexpr uint32_t kFirstEnclosureLevel = 2;
 /// From this level on a verdict's incumbents are polished; a deepest point's are from the start.
 inline constexpr uint32_t kFirstProbeLevel = 4;
-/// Once touching is proven, one part in this many of the budget may have gone into proving more.
-inline constexpr uint32_t kTouchingEffort = 4;
 
 inline constexpr float kInfinite = std::numeric_limits<float>::infinity();
 

@@ -63,7 +63,7 @@ class Search {
     visit(region_.is_ball ? HeapCell{.lo = 0, .at = {0, 0, 0, 1}} : HeapCell{.lo = 0, .at = {0, 0, 1, 0, 0, 1}});
     const std::uint32_t children = region_.is_ball ? 1U << region_.dimension : 2U;
     while (!heap_.empty() && !satisfied() && best_.evaluations + children * kMostPerVisit <= most_evaluations_ &&
-           heap_.size() < kMostCells) {
+           heap_.size() < kMostCells && !settled()) {
       std::pop_heap(heap_.begin(), heap_.end(), higher);
       const HeapCell parent = heap_.back();
       heap_.pop_back();
@@ -77,6 +77,16 @@ class Search {
 
  private:
   [[nodiscard]] bool satisfied() const { return limits_.goal == Goal::verdict && best_.witness; }
+
+  /// Short of a proven sign, the goal is reached, and either double can tell no more or enough has been tried.
+  [[nodiscard]] bool settled() const {
+    const double lower = std::min(best_.lower, heap_.front().lo);
+    const bool reached = limits_.goal == Goal::deepest
+                             ? best_.value - lower <= limits_.tolerance
+                             : best_.value + slack_ <= limits_.tolerance && lower >= -limits_.tolerance;
+    const bool exhausted = heap_.front().lo >= best_.value - 2 * slack_;
+    return reached && (exhausted || best_.evaluations > limits_.budget / kTouchingEffort);
+  }
 
   /// No point of a cell with this bound can change the answer.
   [[nodiscard]] bool is_closed(double lo) const {

@@ -17,6 +17,9 @@ struct Region64 {
   double radius = 0;
 };
 
+/// Once the goal is reached but for a proven sign, one part in this many of the budget may have gone into proving it.
+inline constexpr std::uint32_t kTouchingEffort = 4;
+
 /// Whether a budget is enough to begin.
 [[nodiscard]] bool can_decide(std::uint32_t evaluations);
 
