@@ -22,27 +22,36 @@ bool run_tiles(TileTask& task, std::size_t begin, std::size_t end, std::size_t w
   return true;
 }
 
-/// `finished` orders what oneTBB orders already, the start of the batch before its tiles, one use of a worker's scratch
-/// before the next, the tiles before the return, in a way that the thread sanitizer sees: the distribution's oneTBB is
-/// not instrumented (tests/tsan.supp).
-bool run_in_arena(TileTask& task, std::size_t count, std::size_t tile, const Execution& execution) {
+struct Batch {
+  TileTask& task;
+  std::size_t count = 0, tile = 0;
+  const Execution& execution;
+  /// Tiles that ran. Its order says to the thread sanitizer what oneTBB, not instrumented as distributed, sees to by
+  /// itself: the caller's writes come before every tile, one use of a worker's scratch before the next, and every tile
+  /// before the return.
   std::atomic<std::size_t> finished{0};
+};
+
+void run_range(Batch& batch, std::size_t first, std::size_t last) {
+  static_cast<void>(batch.finished.load(std::memory_order_acquire));
+  const auto worker = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
+  std::size_t ran = 0;
+  for (std::size_t i = first; i != last; ++i) {
+    const std::size_t begin = i * batch.tile;
+    if (run_tiles(batch.task, begin, std::min(begin + batch.tile, batch.count), worker, batch.execution)) ++ran;
+  }
+  batch.finished.fetch_add(ran, std::memory_order_acq_rel);
+}
+
+bool run_in_arena(TileTask& task, std::size_t count, std::size_t tile, const Execution& execution) {
+  Batch batch{.task = task, .count = count, .tile = tile, .execution = execution};
   const std::size_t tiles = (count + tile - 1) / tile;
-  finished.store(0, std::memory_order_release);
+  batch.finished.store(0, std::memory_order_release);
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, tiles, 1),
-      [&](const tbb::blocked_range<std::size_t>& range) {
-        finished.load(std::memory_order_acquire);
-        const auto worker = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
-        std::size_t ran = 0;
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
-          const std::size_t begin = i * tile;
-          if (run_tiles(task, begin, std::min(begin + tile, count), worker, execution)) ++ran;
-        }
-        finished.fetch_add(ran, std::memory_order_acq_rel);
-      },
+      [&batch](const tbb::blocked_range<std::size_t>& range) { run_range(batch, range.begin(), range.end()); },
       tbb::auto_partitioner());
-  return finished.load(std::memory_order_acquire) == tiles;
+  return batch.finished.load(std::memory_order_acquire) == tiles;
 }
 
 }  // namespace

@@ -124,7 +124,7 @@ struct Request {
   Method method;
   Goal goal;
 };
-void PrintTo(const Request& request, std::ostream* out) { *out << request.name; }
+std::ostream& operator<<(std::ostream& out, const Request& request) { return out << request.name; }
 
 class WarmSolver : public testing::TestWithParam<Request> {
  protected:

@@ -54,8 +54,18 @@ double spicy_number(Random& random, const OpParameter& p, double scale, const st
     case Quantity::point:
       return spicy_length(random, p, scale, earlier);
     case Quantity::angle: {
-      const double angles[] = {p.least, p.most,    kPi / 2,    kPi,           kPi / 4, 2 * kPi / 3,
-                               1e-6,    kPi - 1e-6, kPi / 2 + 1e-7, kPi * (1 - 1e-15), 1,     random.uniform(-kPi, kPi)};
+      const double angles[] = {p.least,
+                               p.most,
+                               kPi / 2,
+                               kPi,
+                               kPi / 4,
+                               2 * kPi / 3,
+                               1e-6,
+                               kPi - 1e-6,
+                               kPi / 2 + 1e-7,
+                               kPi * (1 - 1e-15),
+                               1,
+                               random.uniform(-kPi, kPi)};
       const double angle = pick(random, angles);
       return std::clamp(p.least < 0 && random.chance(0.5) ? -angle : angle, p.least, p.most);
     }
@@ -199,6 +209,6 @@ std::string label(int op) {
 }
 
 std::string label(const OnTarget& on) { return label(on.op) + "_" + std::string(on.target->name); }
-void PrintTo(const OnTarget& on, std::ostream* out) { *out << label(on); }
+std::ostream& operator<<(std::ostream& out, const OnTarget& on) { return out << label(on); }
 
 }  // namespace thalweg::conformance

@@ -61,6 +61,6 @@ struct OnTarget {
 /// "box_3d", and "rotate_3d_2" for the second of two rows with one name and dimension.
 [[nodiscard]] std::string label(int op);
 [[nodiscard]] std::string label(const OnTarget& on);
-void PrintTo(const OnTarget& on, std::ostream* out);
+std::ostream& operator<<(std::ostream& out, const OnTarget& on);
 
 }  // namespace thalweg::conformance

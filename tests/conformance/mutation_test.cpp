@@ -32,7 +32,8 @@ Tape compiled(const Shape& shape) {
 
 /// The scene that the mutations act on: flat and round surfaces, hard and smooth operators.
 Shape scene() {
-  const Shape parts = star(300, 12, 4).translate(Vec2{1000, 550}) | box(Vec2{80, 40}).rotate(0.4).translate(Vec2{300, 200});
+  const Shape parts =
+      star(300, 12, 4).translate(Vec2{1000, 550}) | box(Vec2{80, 40}).rotate(0.4).translate(Vec2{300, 200});
   return smooth_union(1, {parts, circle(200).translate(Vec2{750, 400})});
 }
 
@@ -76,9 +77,8 @@ std::vector<Verdict> truths(const Field& field, const Batch& batch) {
   const oracle::Limits limits{.verdict_only = true, .width = 0, .cap = 500};
   for (std::size_t i = 0; i < batch.count(); ++i) {
     const float* row = batch.rows.data() + i * (batch.discs ? 3 : 6);
-    const Bracket found = batch.discs
-                              ? minimum_over_ball(field, {row[0], row[1], 0}, row[2], limits)
-                              : minimum_over_triangle(field, oracle::triangle_at(batch.rows, i, 2), limits);
+    const Bracket found = batch.discs ? minimum_over_ball(field, {row[0], row[1], 0}, row[2], limits)
+                                      : minimum_over_triangle(field, oracle::triangle_at(batch.rows, i, 2), limits);
     all.push_back(verdict(field, found, 4e4));
   }
   return all;
@@ -188,7 +188,8 @@ TEST(NoSlack, GivesVerdictsThatTheOracleRefutes) {
   }
 }
 
-// --- the oracle's own claims that the comparison leans on ----------------------------------------------------------------
+// --- the oracle's own claims that the comparison leans on
+// ----------------------------------------------------------------
 
 TEST(SlackOfATape, IsWhatFloat32NeedsAndNotFarMore) {
   // If slacks were generous, no comparison within them would find anything.

@@ -72,7 +72,8 @@ std::vector<double> angles_of(Random& random, const Shape& shape) {
     if (p.arity == 0) break;
     const double number = shape.parameters()[at];
     if (p.quantity == Quantity::angle) {
-      for (const double angle : {number, -number, kPi - number, kPi + number, number + kPi / 2}) angles.push_back(angle);
+      for (const double angle : {number, -number, kPi - number, kPi + number, number + kPi / 2})
+        angles.push_back(angle);
     }
     if (p.quantity == Quantity::count) {
       for (int k = 0; k < 12; ++k) {
@@ -112,7 +113,8 @@ void add_corners(Points& points, Random& random, const Shape& shape) {
   for (std::size_t i = 0; i < std::min<std::size_t>(corners.size(), 24); ++i) {
     const Vec from = corners[i], to = corners[(i + 1) % corners.size()];
     points.add(from);
-    for (const double t : {0.5, -0.5, 1.5, random.uniform(0, 1), random.uniform(-9, 9)}) points.add(from + (to - from) * t);
+    for (const double t : {0.5, -0.5, 1.5, random.uniform(0, 1), random.uniform(-9, 9)})
+      points.add(from + (to - from) * t);
   }
 }
 

@@ -15,7 +15,7 @@
 
 namespace thalweg::determinism {
 
-void PrintTo(const Golden& golden, std::ostream* out) { *out << golden.workload; }
+std::ostream& operator<<(std::ostream& out, const Golden& golden) { return out << golden.workload; }
 
 namespace {
 

@@ -58,8 +58,8 @@ struct ColumnCell {
 template <int D>
 void enclosure_of(const Tape& tape, const float* const* centres, const CellColumns& cells, size_t count, float* lo,
                   float* value, float* scratch) {
-  using T = Pack<kPackWidth>;
-  const Machine<T> m = machine_for(tape, scratch, 3);
+  using T = Pack<kGradientWidth>;
+  const Machine<T> m = machine_for<kGradientWidth>(tape, scratch, 3);
   const size_t lanes = lanes_of<T>();
   for (size_t i = 0; i < count; i += lanes) {
     for (int axis = 0; axis < D; ++axis) store(Make<T>::load(centres[axis] + i), m.positions + axis * lanes);

@@ -17,8 +17,8 @@ namespace HWY_NAMESPACE {
 template <int D>
 void gradient_of(const Tape& tape, const float* const* points, size_t count, float* value, float* const* gradient,
                  float* scratch) {
-  using T = Pack<kPackWidth>;
-  const Machine<T> m = machine_for(tape, scratch, 1 + D);
+  using T = Pack<kGradientWidth>;
+  const Machine<T> m = machine_for<kGradientWidth>(tape, scratch, 1 + D);
   const size_t lanes = lanes_of<T>();
   for (size_t i = 0; i < count; i += lanes) {
     for (int axis = 0; axis < D; ++axis) store(Make<T>::load(points[axis] + i), m.positions + axis * lanes);

@@ -319,9 +319,10 @@ HWY_INLINE typename Mode::Register run(const Mode& mode, const Machine<typename 
 }
 
 /// Cuts a scratch block into a machine's memory. `components` is the mode's.
-HWY_INLINE Machine<Pack<kPackWidth>> machine_for(const Tape& tape, float* scratch, size_t components) {
+template <int W>
+HWY_INLINE Machine<Pack<W>> machine_for(const Tape& tape, float* scratch, size_t components) {
   constexpr size_t kLanesAtMost = kMostChunkLanes;
-  Machine<Pack<kPackWidth>> m;
+  Machine<Pack<W>> m;
   m.instructions = tape.instructions.data();
   m.instruction_count = tape.instructions.size();
   m.pool = tape.constants.data();

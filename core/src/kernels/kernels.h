@@ -15,10 +15,12 @@
 
 namespace thalweg {
 
-/// Vectors of float32 in flight per chunk.
-inline constexpr int kPackWidth = 2;
-/// The widest chunk of any target: kPackWidth vectors of 512 bits.
-inline constexpr std::size_t kMostChunkLanes = kPackWidth * 16;
+/// Vectors of float32 in flight per chunk: four hide the latency of a value's instructions; gradients and enclosures
+/// need the registers themselves and do best with two (measured, evaluate/* of thalweg_bench).
+inline constexpr int kValueWidth = 4;
+inline constexpr int kGradientWidth = 2;
+/// The widest chunk of any target: kValueWidth vectors of 512 bits.
+inline constexpr std::size_t kMostChunkLanes = kValueWidth * 16;
 /// A coordinate that can be answered is finite and at most this large.
 inline constexpr float kLargestCoordinate = 1e15F;
 inline constexpr std::size_t kColumnPadding = 64;

@@ -14,8 +14,6 @@ HWY_BEFORE_NAMESPACE();
 namespace thalweg {
 namespace HWY_NAMESPACE {
 
-using RowPack = Pack<kPackWidth>;
-
 /// Stores `count` lanes; only a batch's last chunk has fewer than all.
 template <class Store>
 HWY_INLINE void store_lanes(float* to, size_t count, size_t lanes, size_t width, Store&& store_all) {
@@ -30,7 +28,9 @@ HWY_INLINE void store_lanes(float* to, size_t count, size_t lanes, size_t width,
 
 template <int D, bool kWithGradient>
 size_t rows_of(const Tape& tape, const float* points, size_t count, float* value, float* gradient, float* scratch) {
-  const Machine<RowPack> m = machine_for(tape, scratch, kWithGradient ? 1 + D : 1);
+  constexpr int kWidth = kWithGradient ? kGradientWidth : kValueWidth;
+  using RowPack = Pack<kWidth>;
+  const Machine<RowPack> m = machine_for<kWidth>(tape, scratch, kWithGradient ? 1 + D : 1);
   const size_t lanes = lanes_of<RowPack>();
   const RowPack nan = Make<RowPack>::set(std::numeric_limits<float>::quiet_NaN());
   size_t answered = 0;

@@ -60,6 +60,12 @@ class Search {
     best_.witness = false;
     best_.value = std::numeric_limits<double>::infinity();
     best_.value = value_at(start.point);
+    if (!region_.is_ball) {
+      double exact[3] = {};
+      locate(start.u, start.v, exact);
+      ++best_.evaluations;
+      consider(exact, twin_.value(exact), start.u, start.v);
+    }
     visit(region_.is_ball ? HeapCell{.lo = 0, .at = {0, 0, 0, 1}} : HeapCell{.lo = 0, .at = {0, 0, 1, 0, 0, 1}});
     const std::uint32_t children = region_.is_ball ? 1U << region_.dimension : 2U;
     while (!heap_.empty() && !satisfied() && best_.evaluations + children * kMostPerVisit <= most_evaluations_ &&
@@ -256,7 +262,7 @@ class Search {
 
 }  // namespace
 
-bool can_decide(std::uint32_t evaluations) { return evaluations > kMostPerVisit; }
+bool can_decide(std::uint32_t evaluations) { return evaluations > 3 + kMostPerVisit; }
 
 bool goal_reached(const SolveLimits& limits, const QueryState& state, std::size_t q, float lower) {
   const auto tolerance = static_cast<float>(limits.tolerance);

@@ -71,7 +71,8 @@ TEST(Compiler, PushesAScaleIntoTheLengthsOfOperators) {
   const Shape pair = smooth_union(0.5, {circle(1), round(box(Vec2{1, 1}).translate(Vec2{2, 0}), 0.25)});
   const Tape scaled = compiled(pair.scale(4)), plain = compiled(pair);
   EXPECT_EQ(ops_of(scaled), ops_of(plain));
-  for (const double x : {-3.0, 0.7, 1.1, 1.5, 5.0}) EXPECT_NEAR(value(scaled, 4 * x, 2), 4 * value(plain, x, 0.5), 1e-12);
+  for (const double x : {-3.0, 0.7, 1.1, 1.5, 5.0})
+    EXPECT_NEAR(value(scaled, 4 * x, 2), 4 * value(plain, x, 0.5), 1e-12);
 }
 
 TEST(Compiler, LeavesNothingOfARotationThatAPrimitiveAbsorbs) {
@@ -107,9 +108,7 @@ TEST(Compiler, SharesARigidInstructionBetweenShapesAtTheSamePlace) {
   EXPECT_EQ(rigid, 1U);
 }
 
-TEST(Compiler, ForgetsARotationByNothing) {
-  EXPECT_EQ(ops_of(compiled(box(Vec2{1, 2}).rotate(0))), Names{"box"});
-}
+TEST(Compiler, ForgetsARotationByNothing) { EXPECT_EQ(ops_of(compiled(box(Vec2{1, 2}).rotate(0))), Names{"box"}); }
 
 TEST(Compiler, ComputesEqualNodesOnce) {
   // Built twice, so nothing is shared by identity.

@@ -129,7 +129,8 @@ class SymbolicMachine {
   }
   [[nodiscard]] std::string constants(const Instruction& in) const {
     std::string text = "[";
-    for (std::uint32_t i = 0; i < in.constant_count; ++i) text += std::to_string(tape_.constants64.at(in.constants + i)) + " ";
+    for (std::uint32_t i = 0; i < in.constant_count; ++i)
+      text += std::to_string(tape_.constants64.at(in.constants + i)) + " ";
     return text + "]";
   }
 

@@ -108,8 +108,8 @@ TEST(ProbeOffset, GrowsWithTheFieldWhereItIsRelative) {
 }
 
 TEST(EvaluationsOfAGradient, AreThoseOfTheTable) {
-  const std::pair<Gradient, std::uint32_t> flat[] = {{Gradient::autodiff, 1}, {Gradient::central, 4},
-                                                     {Gradient::forward, 3},  {Gradient::simplex, 3},
+  const std::pair<Gradient, std::uint32_t> flat[] = {{Gradient::autodiff, 1},   {Gradient::central, 4},
+                                                     {Gradient::forward, 3},    {Gradient::simplex, 3},
                                                      {Gradient::dichotomy, 12}, {Gradient::dichotomy_verbatim, 12}};
   for (const auto& [strategy, count] : flat) EXPECT_EQ(evaluations_of(strategy, 2), count) << name(strategy);
   EXPECT_EQ(evaluations_of(Gradient::central, 3), 6U);

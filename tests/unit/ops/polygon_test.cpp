@@ -46,16 +46,16 @@ TEST(SimplePolygon, MayBeAComb) {
 }
 
 TEST(SimplePolygon, DoesNotCrossItself) {
-  EXPECT_FALSE(is_simple_polygon(List{0, 0, 1, 1, 1, 0, 0, 1}));                    // a bow tie
-  EXPECT_FALSE(is_simple_polygon(List{0, 0, 4, 0, 4, 4, 2, -1, 0, 4}));             // a tip through an edge
+  EXPECT_FALSE(is_simple_polygon(List{0, 0, 1, 1, 1, 0, 0, 1}));                        // a bow tie
+  EXPECT_FALSE(is_simple_polygon(List{0, 0, 4, 0, 4, 4, 2, -1, 0, 4}));                 // a tip through an edge
   EXPECT_FALSE(is_simple_polygon(List{0, 1, 0.6, -0.8, -1, 0.3, 1, 0.3, -0.6, -0.8}));  // a pentagram
 }
 
 TEST(SimplePolygon, DoesNotTouchItself) {
-  EXPECT_FALSE(is_simple_polygon(List{0, 0, 4, 0, 4, 4, 2, 0, 0, 4}));  // a corner on an edge
+  EXPECT_FALSE(is_simple_polygon(List{0, 0, 4, 0, 4, 4, 2, 0, 0, 4}));          // a corner on an edge
   EXPECT_FALSE(is_simple_polygon(List{0, 0, 2, 0, 2, 2, 0, 0, -2, 2, -2, 0}));  // a corner twice
-  EXPECT_FALSE(is_simple_polygon(List{0, 0, 4, 0, 2, 0, 2, 3}));        // an edge back along another
-  EXPECT_FALSE(is_simple_polygon(List{0, 0, 4, 0, 4, 1, 0, 0, 1, 0, 0, 3}));  // a corner on a vertex and an overlap
+  EXPECT_FALSE(is_simple_polygon(List{0, 0, 4, 0, 2, 0, 2, 3}));                // an edge back along another
+  EXPECT_FALSE(is_simple_polygon(List{0, 0, 4, 0, 4, 1, 0, 0, 1, 0, 0, 3}));    // a corner on a vertex and an overlap
 }
 
 TEST(SimplePolygon, HasNoEdgeWithoutLength) {
@@ -71,7 +71,8 @@ bool crosses_by_brute_force(const List& p) {
   const std::size_t n = p.size() / 2;
   const auto turn = [&](std::size_t a, std::size_t b, std::size_t c) {
     a %= n, b %= n, c %= n;
-    return (p[2 * b] - p[2 * a]) * (p[2 * c + 1] - p[2 * a + 1]) - (p[2 * b + 1] - p[2 * a + 1]) * (p[2 * c] - p[2 * a]);
+    return (p[2 * b] - p[2 * a]) * (p[2 * c + 1] - p[2 * a + 1]) -
+           (p[2 * b + 1] - p[2 * a + 1]) * (p[2 * c] - p[2 * a]);
   };
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = i + 2; j < n && (i != 0 || j + 1 < n); ++j) {

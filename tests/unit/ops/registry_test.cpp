@@ -15,8 +15,8 @@ namespace {
 TEST(OpTable, HoldsTheOpsOfThisVersion) {
   std::set<std::pair<std::string, int>> names;
   for (const OpRow& row : op_table()) names.emplace(row.name, row.dimension);
-  for (const char* name : {"circle", "box", "rounded_box", "segment", "triangle", "polygon", "star", "pie", "arc", "ring",
-                           "moon", "cool_s", "half_plane"}) {
+  for (const char* name : {"circle", "box", "rounded_box", "segment", "triangle", "polygon", "star", "pie", "arc",
+                           "ring", "moon", "cool_s", "half_plane"}) {
     EXPECT_TRUE(names.contains({name, 2})) << name;
   }
   for (const char* name : {"sphere", "box", "torus", "capsule", "cylinder", "plane"}) {

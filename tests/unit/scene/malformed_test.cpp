@@ -25,7 +25,7 @@ struct Malformed {
   const char* expected;  ///< part of the error's text
   const char* found;
 };
-void PrintTo(const Malformed& malformed, std::ostream* out) { *out << malformed.name; }
+std::ostream& operator<<(std::ostream& out, const Malformed& malformed) { return out << malformed.name; }
 
 std::string scene(int dimension, const std::string& shape, const std::string& rest = "") {
   return R"({"thalweg": 1, "dimension": )" + std::to_string(dimension) + R"(, "shape": )" + shape + rest + "}";
@@ -43,7 +43,8 @@ std::string repeated(const std::string& part, int times) {
 /// One radius of a circle, as it stands in the text.
 std::string radius(const std::string& text) { return in2(R"({"op": "circle", "radius": )" + text + "}"); }
 
-// --- no JSON: line:column -----------------------------------------------------------------------------------------------
+// --- no JSON: line:column
+// -----------------------------------------------------------------------------------------------
 
 const Malformed kSyntax[] = {
     {"empty_text", "", "1:1", "JSON", ""},
@@ -68,7 +69,8 @@ const Malformed kSyntax[] = {
     {"control_character", "{\"a\tb\": 1}", "1:4", "JSON", ""},
 };
 
-// --- JSON that is no scene ----------------------------------------------------------------------------------------------
+// --- JSON that is no scene
+// ----------------------------------------------------------------------------------------------
 
 const Malformed kDocument[] = {
     {"array", "[]", "", "an object", "an array of 0"},
@@ -83,20 +85,23 @@ const Malformed kDocument[] = {
     {"dimension_4", scene(4, "{}"), "/dimension", "2 or 3", "4"},
     {"dimension_as_text", R"({"thalweg": 1, "dimension": "2", "shape": {}})", "/dimension", "2 or 3", "\"2\""},
     {"dimension_2_and_a_half", R"({"thalweg": 1, "dimension": 2.5, "shape": {}})", "/dimension", "2 or 3", "2.5"},
-    {"unknown_key", scene(2, "{}", R"(, "shapes": 1)"), "/shapes", "one of thalweg, dimension, shape, define", "shapes"},
+    {"unknown_key", scene(2, "{}", R"(, "shapes": 1)"), "/shapes", "one of thalweg, dimension, shape, define",
+     "shapes"},
     {"unknown_key_with_slash_and_tilde", scene(2, "{}", R"(, "a/b~c": 1)"), "/a~1b~0c", "one of", "a/b~c"},
     {"unknown_key_with_a_line_break", scene(2, "{}", R"(, "a\nb": 1)"), "/a?b", "one of", "a"},
     {"duplicate_key_with_a_line_break", R"({"a\nb": 1, "a\nb": 1})", "/a?b", "each key once", "again"},
     {"duplicate_key", R"({"thalweg": 1, "thalweg": 1})", "/thalweg", "each key once", "\"thalweg\" again"},
     {"duplicate_parameter", radius(R"(1, "radius": 1)"), "/shape/radius", "each key once", "\"radius\" again"},
     {"duplicate_key_in_an_operand",
-     in2(R"({"op": "union", "of": [{"op": "cool_s"}, {"op": "circle", "radius": 1, "op": "box"}]})"),
-     "/shape/of/1/op", "each key once", "\"op\" again"},
+     in2(R"({"op": "union", "of": [{"op": "cool_s"}, {"op": "circle", "radius": 1, "op": "box"}]})"), "/shape/of/1/op",
+     "each key once", "\"op\" again"},
     {"duplicate_definition", defining("{}", R"({"a": {}, "a": {}})"), "/define/a", "each key once", "\"a\" again"},
-    {"nesting_of_arrays_deeper_than_1000", repeated("[", 1001) + repeated("]", 1001), nullptr, "at most 1000", "deeper"},
+    {"nesting_of_arrays_deeper_than_1000", repeated("[", 1001) + repeated("]", 1001), nullptr, "at most 1000",
+     "deeper"},
 };
 
-// --- nodes --------------------------------------------------------------------------------------------------------------
+// --- nodes
+// --------------------------------------------------------------------------------------------------------------
 
 const Malformed kNode[] = {
     {"node_is_an_array", in2("[]"), "/shape", "a node (an object)", "an array of 0"},
@@ -126,7 +131,8 @@ const Malformed kNode[] = {
     {"implicit_parameter", in2(R"({"op": "cool_s", "unit": 2})"), "/shape/unit", "one of op", "\"unit\""},
 };
 
-// --- parameters -----------------------------------------------------------------------------------------------------------
+// --- parameters
+// -----------------------------------------------------------------------------------------------------------
 
 const Malformed kNumber[] = {
     {"missing", in2(R"({"op": "circle"})"), "/shape", "\"radius\"", "none"},
@@ -168,8 +174,8 @@ const Malformed kNumber[] = {
 };
 
 const Malformed kVector[] = {
-    {"three_numbers_in_2d", in2(R"({"op": "box", "half_size": [1, 2, 3]})"), "/shape/half_size", "an array of 2 numbers",
-     "an array of 3"},
+    {"three_numbers_in_2d", in2(R"({"op": "box", "half_size": [1, 2, 3]})"), "/shape/half_size",
+     "an array of 2 numbers", "an array of 3"},
     {"two_numbers_in_3d", in3(R"({"op": "box", "half_size": [1, 2]})"), "/shape/half_size", "an array of 3 numbers",
      "an array of 2"},
     {"one_number", in2(R"({"op": "box", "half_size": 1})"), "/shape/half_size", "an array of 2 numbers", "1"},
@@ -183,8 +189,9 @@ const Malformed kVector[] = {
      "zero"},
     {"zero_normal_in_3d", in3(R"({"op": "plane", "normal": [0, 0, -0.0], "offset": 1})"), "/shape/normal",
      "non-zero length", "zero"},
-    {"zero_rotation_axis", in3(R"({"op": "rotate", "axis": [0, 0, 0], "angle": 1, "of": {"op": "sphere", "radius": 1}})"),
-     "/shape/axis", "non-zero length", "zero"},
+    {"zero_rotation_axis",
+     in3(R"({"op": "rotate", "axis": [0, 0, 0], "angle": 1, "of": {"op": "sphere", "radius": 1}})"), "/shape/axis",
+     "non-zero length", "zero"},
     {"zero_quaternion", in3(R"({"op": "rotate", "quaternion": [0, 0, 0, 0], "of": {"op": "sphere", "radius": 1}})"),
      "/shape/quaternion", "non-zero length", "zero"},
     {"axis_and_quaternion",
@@ -192,12 +199,13 @@ const Malformed kVector[] = {
      "/shape/quaternion", "one of op, axis, angle, of", "\"quaternion\""},
     {"triangle_on_one_line", in2(R"({"op": "triangle", "a": [0, 0], "b": [1, 1], "c": [2, 2]})"), "/shape/c",
      "not lie on one line", ""},
-    {"polygon_of_two", in2(R"({"op": "polygon", "points": [[0, 0], [1, 0]]})"), "/shape/points", "at least 3 points", ""},
+    {"polygon_of_two", in2(R"({"op": "polygon", "points": [[0, 0], [1, 0]]})"), "/shape/points", "at least 3 points",
+     ""},
     {"polygon_that_crosses_itself", in2(R"({"op": "polygon", "points": [[0, 0], [1, 1], [1, 0], [0, 1]]})"),
      "/shape/points", "do not cross", ""},
     {"polygon_as_number", in2(R"({"op": "polygon", "points": 5})"), "/shape/points", "an array of points", "5"},
-    {"polygon_with_a_3d_corner", in2(R"({"op": "polygon", "points": [[0, 0], [1, 0, 0], [0, 1]]})"),
-     "/shape/points/1", "an array of 2 numbers", "an array of 3"},
+    {"polygon_with_a_3d_corner", in2(R"({"op": "polygon", "points": [[0, 0], [1, 0, 0], [0, 1]]})"), "/shape/points/1",
+     "an array of 2 numbers", "an array of 3"},
     {"polygon_with_text", in2(R"({"op": "polygon", "points": [[0, 0], [1, 0], [0, "1"]]})"), "/shape/points/2/1",
      "a coordinate", "\"1\""},
     {"polygon_with_a_corner_too_far", in2(R"({"op": "polygon", "points": [[0, 0], [1, 0], [0, 1e16]]})"),
@@ -208,14 +216,16 @@ const Malformed kVector[] = {
      "/shape/axis", "one of op, angle, of", "\"axis\""},
 };
 
-// --- definitions ----------------------------------------------------------------------------------------------------------
+// --- definitions
+// ----------------------------------------------------------------------------------------------------------
 
 const char* const kCool = R"({"op": "cool_s"})";
 
 const Malformed kDefine[] = {
     {"not_an_object", defining(kCool, "[]"), "/define", "an object", "an array of 0"},
     {"reference_to_nothing", in2(R"({"op": "ref", "name": "wheel"})"), "/shape/name", "\"define\"", "\"wheel\""},
-    {"reference_to_another_name", defining(R"({"op": "union", "of": [{"op": "ref", "name": "w"}]})", R"({"v": )" + std::string(kCool) + "}"),
+    {"reference_to_another_name",
+     defining(R"({"op": "union", "of": [{"op": "ref", "name": "w"}]})", R"({"v": )" + std::string(kCool) + "}"),
      "/shape/of/0/name", "a name of \"define\"", "\"w\""},
     {"reference_without_a_name", defining(R"({"op": "ref"})", "{}"), "/shape", "\"name\"", "none"},
     {"reference_by_number", defining(R"({"op": "ref", "name": 1})", "{}"), "/shape/name", "a string", "1"},
@@ -259,7 +269,8 @@ INSTANTIATE_TEST_SUITE_P(Number, MalformedScene, testing::ValuesIn(kNumber), nam
 INSTANTIATE_TEST_SUITE_P(Vector, MalformedScene, testing::ValuesIn(kVector), name_of);
 INSTANTIATE_TEST_SUITE_P(Define, MalformedScene, testing::ValuesIn(kDefine), name_of);
 
-// --- limits of nesting ------------------------------------------------------------------------------------------------------
+// --- limits of nesting
+// ------------------------------------------------------------------------------------------------------
 
 std::string nested(int depth) {
   return in2(repeated(R"({"op": "round", "radius": 0, "of": )", depth) + kCool + repeated("}", depth));

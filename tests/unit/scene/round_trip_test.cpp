@@ -51,7 +51,8 @@ TEST(SceneText, OfEveryOpReadsBackAsTheSameField) {
     for (std::uint64_t i = 0; i < 10; ++i) {
       Random random(1000 * static_cast<std::uint64_t>(op) + i);
       const int dimension = row.dimension != 0 ? row.dimension : 2 + static_cast<int>(i % 2);
-      const Shape a = oracle::random_primitive_of(random, dimension), b = oracle::random_primitive_of(random, dimension);
+      const Shape a = oracle::random_primitive_of(random, dimension),
+                  b = oracle::random_primitive_of(random, dimension);
       const Shape shape = row.kind == OpKind::primitive ? oracle::random_primitive(random, op)
                                                         : oracle::random_operator(random, op, a, b);
       ASSERT_EQ(shape.op_index(), op);
@@ -71,7 +72,8 @@ TEST(SceneText, OfRandomTreesReadsBackAsTheSameField) {
 }
 
 TEST(SceneText, IsAFixedPointOfReadingAndWritingWhereNothingIsNormalised) {
-  const Shape shape = smooth_union(0.1, {circle(0.3).translate(Vec2{1.0 / 3, 1e-15}), box(Vec2{1e15, 0.1}).rotate(0.7)});
+  const Shape shape =
+      smooth_union(0.1, {circle(0.3).translate(Vec2{1.0 / 3, 1e-15}), box(Vec2{1e15, 0.1}).rotate(0.7)});
   const std::string text = scene_text(shape);
   EXPECT_EQ(scene_text(parsed(text)), text);
 }

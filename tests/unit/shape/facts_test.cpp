@@ -23,7 +23,7 @@ struct Claim {
   Exactness outside, inside;
   bool convex;
 };
-void PrintTo(const Claim& claim, std::ostream* out) { *out << claim.name; }
+std::ostream& operator<<(std::ostream& out, const Claim& claim) { return out << claim.name; }
 
 std::vector<Claim> primitives() {
   const Vec2 square[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};

@@ -92,8 +92,7 @@ TEST(Builder, ThrowsTheErrorsText) {
 }
 
 TEST(Builder, ReadsLikeTheMathematics) {
-  const Shape scene =
-      smooth_union(1.0, {star(300, 12, 4).translate({1000, 550}), circle(200).translate({750, 400})});
+  const Shape scene = smooth_union(1.0, {star(300, 12, 4).translate({1000, 550}), circle(200).translate({750, 400})});
   EXPECT_EQ(scene.op(), "smooth_union");
   EXPECT_EQ(scene.operands()[1].op(), "translate");
   EXPECT_EQ(scene.dimension(), 2);
