@@ -6,6 +6,7 @@
 #include "schedule.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -71,7 +72,8 @@ bool schedule(TileTask& task, std::size_t count, std::size_t tile, const Executi
     return complete;
   }
   if (execution.threads == 0) return run_in_arena(task, count, tile, execution);
-  tbb::task_arena arena(execution.threads);
+  // More threads than cores would not run, and oneTBB would say so on stderr.
+  tbb::task_arena arena(std::min(execution.threads, tbb::info::default_concurrency()));
   return arena.execute([&] { return run_in_arena(task, count, tile, execution); });
 }
 

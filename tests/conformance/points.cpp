@@ -65,8 +65,8 @@ void add_bounds(Points& points, const Shape& shape, double extent) {
 
 /// Angles of symmetry lines: what the shape's numbers say, and the common ones.
 std::vector<double> angles_of(Random& random, const Shape& shape) {
-  std::vector<double> angles;
-  for (int k = 0; k < 24; ++k) angles.push_back(k * kPi / 12);
+  std::vector<double> angles(24);
+  for (std::size_t k = 0; k < angles.size(); ++k) angles[k] = static_cast<double>(k) * kPi / 12;
   std::size_t at = 0;
   for (const OpParameter& p : row_of(shape).parameters) {
     if (p.arity == 0) break;

@@ -26,6 +26,7 @@ TEST(BatchQueries, GiveTheSameAnswersFromManyThreadsAtOnce) {
   }
   std::atomic<int> wrong{0};
   std::vector<std::thread> callers;
+  callers.reserve(8);
   for (std::size_t caller = 0; caller < 8; ++caller) {
     callers.emplace_back([&, caller] {
       for (std::size_t turn = 0; turn < 6; ++turn) {
@@ -43,6 +44,7 @@ TEST(BatchQueries, CompileTheSameTapeFromManyThreadsAtOnce) {
   const Workload first("triangles2_verdict");
   std::atomic<int> wrong{0};
   std::vector<std::thread> callers;
+  callers.reserve(8);
   for (int caller = 0; caller < 8; ++caller) {
     callers.emplace_back([&] {
       const Workload own("triangles2_verdict");

@@ -28,7 +28,8 @@ std::string plain(std::string_view what) {
   if (const auto colon = what.find(": "); colon != std::string_view::npos) what.remove_prefix(colon + 2);
   if (const auto dash = what.find(" - "); dash != std::string_view::npos) what.remove_prefix(dash + 3);
   std::string text(what);
-  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }, ' ');
   return text;
 }
 
@@ -51,7 +52,7 @@ class Checker final : public nlohmann::json_sax<json> {
   bool key(string_t& name) override {
     levels_.back().step = pointer_step(name);
     if (levels_.back().keys.insert(name).second) return true;
-    return fail(pointer(), "each key once", "\"" + name + "\" again");
+    return fail(pointer(), "each key once", in_quotes(name) + " again");
   }
   bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& e) override {
     const bool overflow = e.id == 406;
@@ -112,6 +113,12 @@ std::string pointer_step(std::string_view key) {
     }
   }
   return escaped;
+}
+
+std::string in_quotes(std::string_view text) {
+  std::string line = "\"";
+  for (const char c : text) line += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
+  return line + "\"";
 }
 
 Result<json> parse_json(std::string_view text, std::string_view file) {

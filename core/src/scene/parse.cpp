@@ -35,7 +35,7 @@ class SceneParser {
     static constexpr std::string_view kKeys[] = {"thalweg", "dimension", "shape", "define"};
     for (const auto& [key, value] : document_.items()) {
       if (std::ranges::find(kKeys, key) == std::end(kKeys)) {
-        return fault("/" + scene::pointer_step(key), "one of thalweg, dimension, shape, define", "\"" + key + "\"");
+        return fault("/" + scene::pointer_step(key), "one of thalweg, dimension, shape, define", scene::in_quotes(key));
       }
     }
     if (auto error = header()) return *error;
@@ -78,9 +78,10 @@ class SceneParser {
   Result<Shape> definition(const std::string& key, const std::string& place) {
     if (const auto found = defined_.find(key); found != defined_.end()) return found->second;
     if (!document_.contains("define") || !document_["define"].contains(key)) {
-      return fault(place, "a name of \"define\"", "\"" + key + "\"");
+      return fault(place, "a name of \"define\"", scene::in_quotes(key));
     }
-    if (!open_.insert(key).second) return fault(place, "definitions without a cycle", "\"" + key + "\" in itself");
+    if (!open_.insert(key).second)
+      return fault(place, "definitions without a cycle", scene::in_quotes(key) + " in itself");
     auto shape = node(document_["define"][key], "/define/" + scene::pointer_step(key));
     open_.erase(key);
     if (shape) defined_.emplace(key, *shape);
@@ -128,7 +129,7 @@ class SceneParser {
   Result<Shape> reference(const json& value, const std::string& place) {
     for (const auto& [key, unused] : value.items()) {
       if (key != "op" && key != "name") {
-        return fault(place + "/" + scene::pointer_step(key), "one of op, name", "\"" + key + "\"");
+        return fault(place + "/" + scene::pointer_step(key), "one of op, name", scene::in_quotes(key));
       }
     }
     if (!value.contains("name")) return fault(place, "the key \"name\"", "none");
@@ -155,10 +156,10 @@ class SceneParser {
     if (entry.row.kind != OpKind::primitive) known += ", of";
     for (const auto& item : value.items()) {
       const std::string& key = item.key();
-      const bool is_parameter = std::ranges::any_of(
-          entry.row.parameters, [&](const OpParameter& p) { return !p.implicit && p.name == key; });
+      const bool is_parameter =
+          std::ranges::any_of(entry.row.parameters, [&](const OpParameter& p) { return !p.implicit && p.name == key; });
       if (key == "op" || is_parameter || (key == "of" && entry.row.kind != OpKind::primitive)) continue;
-      return fault(place + "/" + scene::pointer_step(key), "one of " + known, "\"" + key + "\"");
+      return fault(place + "/" + scene::pointer_step(key), "one of " + known, scene::in_quotes(key));
     }
     return std::nullopt;
   }

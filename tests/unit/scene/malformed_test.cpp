@@ -261,13 +261,13 @@ TEST_P(MalformedScene, IsRefusedWithPlaceExpectedAndFound) {
   EXPECT_EQ(to_string(error).find('\n'), std::string::npos);
 }
 
-const auto name_of = [](const auto& malformed) { return std::string(malformed.param.name); };
-INSTANTIATE_TEST_SUITE_P(Syntax, MalformedScene, testing::ValuesIn(kSyntax), name_of);
-INSTANTIATE_TEST_SUITE_P(Document, MalformedScene, testing::ValuesIn(kDocument), name_of);
-INSTANTIATE_TEST_SUITE_P(Node, MalformedScene, testing::ValuesIn(kNode), name_of);
-INSTANTIATE_TEST_SUITE_P(Number, MalformedScene, testing::ValuesIn(kNumber), name_of);
-INSTANTIATE_TEST_SUITE_P(Vector, MalformedScene, testing::ValuesIn(kVector), name_of);
-INSTANTIATE_TEST_SUITE_P(Define, MalformedScene, testing::ValuesIn(kDefine), name_of);
+const auto kNameOf = [](const auto& malformed) { return std::string(malformed.param.name); };
+INSTANTIATE_TEST_SUITE_P(Syntax, MalformedScene, testing::ValuesIn(kSyntax), kNameOf);
+INSTANTIATE_TEST_SUITE_P(Document, MalformedScene, testing::ValuesIn(kDocument), kNameOf);
+INSTANTIATE_TEST_SUITE_P(Node, MalformedScene, testing::ValuesIn(kNode), kNameOf);
+INSTANTIATE_TEST_SUITE_P(Number, MalformedScene, testing::ValuesIn(kNumber), kNameOf);
+INSTANTIATE_TEST_SUITE_P(Vector, MalformedScene, testing::ValuesIn(kVector), kNameOf);
+INSTANTIATE_TEST_SUITE_P(Define, MalformedScene, testing::ValuesIn(kDefine), kNameOf);
 
 // --- limits of nesting
 // ------------------------------------------------------------------------------------------------------

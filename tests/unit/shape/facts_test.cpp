@@ -99,9 +99,9 @@ TEST_P(Claims, AreThoseOfTheTable) {
   EXPECT_EQ(facts.lipschitz, 1);
 }
 
-const auto name_of = [](const auto& claim) { return std::string(claim.param.name); };
-INSTANTIATE_TEST_SUITE_P(Primitives, Claims, testing::ValuesIn(primitives()), name_of);
-INSTANTIATE_TEST_SUITE_P(Operators, Claims, testing::ValuesIn(operators()), name_of);
+const auto kNameOf = [](const auto& claim) { return std::string(claim.param.name); };
+INSTANTIATE_TEST_SUITE_P(Primitives, Claims, testing::ValuesIn(primitives()), kNameOf);
+INSTANTIATE_TEST_SUITE_P(Operators, Claims, testing::ValuesIn(operators()), kNameOf);
 
 TEST(UnsignedFact, HoldsOnlyWhileNoPointCanBeInside) {
   const Shape line = segment(Vec2{0, 0}, Vec2{1, 0}), disc = circle(1);
