@@ -36,14 +36,14 @@ enum class Quantity : std::uint8_t {
 struct OpParameter {
   std::string_view name;
   Quantity quantity = Quantity::length;
-  int arity = 1;      ///< how many numbers; 0: a list of points of the op's dimension
-  double least = 0;   ///< smallest accepted number
-  double most = 0;    ///< largest accepted number
+  int arity = 1;     ///< how many numbers; 0: a list of points of the op's dimension
+  double least = 0;  ///< smallest accepted number
+  double most = 0;   ///< largest accepted number
   std::string_view meaning;
   std::string_view choices;  ///< for choice: the words, separated by '|'
   bool optional = false;
-  double fallback = 0;       ///< value of each number when absent and optional
-  bool implicit = false;     ///< carried by the node but not part of the language
+  double fallback = 0;    ///< value of each number when absent and optional
+  bool implicit = false;  ///< carried by the node but not part of the language
 };
 
 struct OpRow {

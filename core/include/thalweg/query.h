@@ -59,12 +59,12 @@ struct Queries {
 /// Result columns, N rows each; a null column is not computed. Points and normals are (N,d) in C order.
 struct CollideColumns {
   std::uint8_t* status = nullptr;
-  float* value = nullptr;        ///< f at `point`
-  float* lower = nullptr;        ///< proven lower bound of f over the query; -inf where none is
+  float* value = nullptr;  ///< f at `point`
+  float* lower = nullptr;  ///< proven lower bound of f over the query; -inf where none is
   std::uint8_t* converged = nullptr;
   float* point = nullptr;
-  float* normal = nullptr;       ///< unit, out of the shape
-  float* barycentric = nullptr;  ///< (N,3), triangles only
+  float* normal = nullptr;          ///< unit, out of the shape
+  float* barycentric = nullptr;     ///< (N,3), triangles only
   std::uint8_t* claimed = nullptr;  ///< a local method's opinion: 1 when its value is negative
   std::uint32_t* starts = nullptr;
   std::uint32_t* iterations = nullptr;

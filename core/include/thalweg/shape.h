@@ -55,10 +55,10 @@ struct Facts {
   int dimension = 2;  ///< 2 or 3
   Exactness outside = Exactness::exact;
   Exactness inside = Exactness::exact;
-  double lipschitz = 1.0;     ///< proven global Lipschitz constant of f; infinite where there is none
-  bool convex = false;        ///< f is a convex function
-  bool is_unsigned = false;   ///< f is never negative (a segment): nothing can be proven inside
-  Bounds bounds;              ///< holds {f <= 0}
+  double lipschitz = 1.0;    ///< proven global Lipschitz constant of f; infinite where there is none
+  bool convex = false;       ///< f is a convex function
+  bool is_unsigned = false;  ///< f is never negative (a segment): nothing can be proven inside
+  Bounds bounds;             ///< holds {f <= 0}
 };
 
 class Shape {
@@ -78,11 +78,11 @@ class Shape {
 
   [[nodiscard]] const Facts& facts() const;
   [[nodiscard]] int dimension() const { return facts().dimension; }
-  [[nodiscard]] std::string_view op() const;               ///< the op's name
-  [[nodiscard]] int op_index() const;                      ///< its row in the op table
+  [[nodiscard]] std::string_view op() const;  ///< the op's name
+  [[nodiscard]] int op_index() const;         ///< its row in the op table
   [[nodiscard]] std::span<const double> parameters() const;
   [[nodiscard]] std::span<const Shape> operands() const;
-  [[nodiscard]] const void* identity() const;              ///< equal for handles to the same node
+  [[nodiscard]] const void* identity() const;  ///< equal for handles to the same node
 
   /// A box that holds {f <= level}; Facts::bounds is the one at level 0.
   [[nodiscard]] Bounds level_bounds(double level) const;

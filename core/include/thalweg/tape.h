@@ -23,11 +23,11 @@ namespace thalweg {
 struct Instruction {
   static constexpr std::uint16_t kNone = 0xffff;
 
-  std::uint16_t op = 0;             ///< row of the op table, or kLoad
-  std::uint16_t operand = 0;        ///< register or position read
-  std::uint16_t target = kNone;     ///< register or position written; kNone: the accumulator alone
-  std::uint16_t flags = 0;          ///< see the constants below
-  std::uint32_t constants = 0;      ///< first derived constant in the pools
+  std::uint16_t op = 0;          ///< row of the op table, or kLoad
+  std::uint16_t operand = 0;     ///< register or position read
+  std::uint16_t target = kNone;  ///< register or position written; kNone: the accumulator alone
+  std::uint16_t flags = 0;       ///< see the constants below
+  std::uint32_t constants = 0;   ///< first derived constant in the pools
   std::uint32_t constant_count = 0;
 
   static constexpr std::uint16_t kLoad = 0xfffe;
@@ -46,14 +46,14 @@ struct Affine {
 struct Tape {
   int dimension = 2;
   std::vector<Instruction> instructions;
-  std::vector<float> constants;         ///< derived once from the parameters, in double, then rounded
-  std::vector<double> constants64;      ///< the same before rounding, for evaluation in double
+  std::vector<float> constants;     ///< derived once from the parameters, in double, then rounded
+  std::vector<double> constants64;  ///< the same before rounding, for evaluation in double
   int register_count = 0;
-  int position_count = 1;               ///< position 0 is the query point
-  Facts facts;                          ///< of the root
-  Affine slack;                         ///< |float32 value - f| <= slack(m); f in double has 2^-29 of it
-  Affine search_slack;                  ///< the same for bounds over cells: value, centre, reach and their arithmetic
-  bool has_support = false;             ///< some primitive has a support function, so enclosures beat f - L r
+  int position_count = 1;    ///< position 0 is the query point
+  Facts facts;               ///< of the root
+  Affine slack;              ///< |float32 value - f| <= slack(m); f in double has 2^-29 of it
+  Affine search_slack;       ///< the same for bounds over cells: value, centre, reach and their arithmetic
+  bool has_support = false;  ///< some primitive has a support function, so enclosures beat f - L r
 
   /// The program, one instruction a line.
   [[nodiscard]] std::string disassembly() const;

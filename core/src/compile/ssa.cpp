@@ -201,8 +201,14 @@ class Flattener {
     }
     const auto dimension = static_cast<std::size_t>(entry.row.dimension);
     const Position& where = ssa_.positions[static_cast<std::size_t>(position)];
-    Value value{.op = shape.op_index(), .a = -1, .b = -1, .position = position, .flags = 0, .constants = {},
-                .size = {}, .error = {}};
+    Value value{.op = shape.op_index(),
+                .a = -1,
+                .b = -1,
+                .position = position,
+                .flags = 0,
+                .constants = {},
+                .size = {},
+                .error = {}};
     entry.derive(placed.numbers, value.constants);
     value.constants.insert(value.constants.begin(), placed.at.translation.begin(),
                            placed.at.translation.begin() + static_cast<std::ptrdiff_t>(dimension));
@@ -226,8 +232,14 @@ class Flattener {
       if (entry.idempotent && next == folded) continue;
       const Value& a = ssa_.values[static_cast<std::size_t>(folded)];
       const Value& b = ssa_.values[static_cast<std::size_t>(next)];
-      Value value{.op = shape.op_index(), .a = folded, .b = next, .position = -1, .flags = 0,
-                  .constants = constants, .size = plus(larger(a.size, b.size), {extent_here, 0}), .error = {}};
+      Value value{.op = shape.op_index(),
+                  .a = folded,
+                  .b = next,
+                  .position = -1,
+                  .flags = 0,
+                  .constants = constants,
+                  .size = plus(larger(a.size, b.size), {extent_here, 0}),
+                  .error = {}};
       value.error = plus(larger(a.error, b.error), times(entry.row.rounding * kEps, value.size));
       folded = add(std::move(value));
     }
@@ -239,8 +251,14 @@ class Flattener {
     const std::vector<double> numbers = scaled_numbers(shape, at.scale);
     const int operand = walk(shape.operands()[0], at, position);
     const Value& a = ssa_.values[static_cast<std::size_t>(operand)];
-    Value value{.op = shape.op_index(), .a = operand, .b = -1, .position = -1, .flags = 0, .constants = {},
-                .size = plus(a.size, {extent(entry.row, numbers), 0}), .error = {}};
+    Value value{.op = shape.op_index(),
+                .a = operand,
+                .b = -1,
+                .position = -1,
+                .flags = 0,
+                .constants = {},
+                .size = plus(a.size, {extent(entry.row, numbers), 0}),
+                .error = {}};
     value.error = plus(a.error, times(entry.row.rounding * kEps, value.size));
     entry.derive(numbers, value.constants);
     return add(std::move(value));
@@ -260,8 +278,12 @@ class Flattener {
     if (moves(at)) position = rigid(at, position);
     const Entry& entry = entry_of(shape.op_index());
     const Position& parent = ssa_.positions[static_cast<std::size_t>(position)];
-    Position made{.op = shape.op_index(), .parent = position, .constants = {}, .rigid = false,
-                  .reach = times(entry.stretch, parent.reach), .error = times(entry.stretch, parent.error)};
+    Position made{.op = shape.op_index(),
+                  .parent = position,
+                  .constants = {},
+                  .rigid = false,
+                  .reach = times(entry.stretch, parent.reach),
+                  .error = times(entry.stretch, parent.error)};
     made.error = plus(made.error, times(entry.row.rounding * kEps, made.reach));
     entry.derive(scaled_numbers(shape, at.scale), made.constants);
     return add(std::move(made));

@@ -27,7 +27,7 @@ struct Value {
   int op = -1;
   int a = -1;
   int b = -1;
-  int position = -1;  ///< primitives only
+  int position = -1;        ///< primitives only
   std::uint16_t flags = 0;  ///< kSupport and kDepth of the instruction
   std::vector<double> constants;
   Affine size;   ///< |value| <= size(m)

@@ -85,10 +85,11 @@ inline constexpr bool kMovesPosition = Op::kDeclaration.kind == OpKind::warp ||
 
 #define THALWEG_CASES_8(CASE, N) \
   CASE(N) CASE(N + 1) CASE(N + 2) CASE(N + 3) CASE(N + 4) CASE(N + 5) CASE(N + 6) CASE(N + 7)
-#define THALWEG_CASES_64(CASE, N)                                                                           \
-  THALWEG_CASES_8(CASE, N) THALWEG_CASES_8(CASE, N + 8) THALWEG_CASES_8(CASE, N + 16)                       \
-  THALWEG_CASES_8(CASE, N + 24) THALWEG_CASES_8(CASE, N + 32) THALWEG_CASES_8(CASE, N + 40)                 \
-  THALWEG_CASES_8(CASE, N + 48) THALWEG_CASES_8(CASE, N + 56)
+#define THALWEG_CASES_64(CASE, N)                                                               \
+  THALWEG_CASES_8(CASE, N)                                                                      \
+  THALWEG_CASES_8(CASE, N + 8) THALWEG_CASES_8(CASE, N + 16) THALWEG_CASES_8(CASE, N + 24)      \
+      THALWEG_CASES_8(CASE, N + 32) THALWEG_CASES_8(CASE, N + 40) THALWEG_CASES_8(CASE, N + 48) \
+          THALWEG_CASES_8(CASE, N + 56)
 static_assert(kOpCount <= 64, "give the dispatch more cases");
 
 /// The gradient before an op's move of position; only moves are ever asked for.
@@ -110,8 +111,8 @@ HWY_INLINE Point<T, D> pull_back(const Machine<T>& m, size_t slot, Point<T, D> g
     const Constants<T> c{m.pool + made.constants, made.constant_count};
     const auto p = load_point<T, D>(m.positions + made.operand * D * lanes_of<T>());
     switch (made.op) {
-#define THALWEG_CASE(I)                                     \
-  case I:                                                   \
+#define THALWEG_CASE(I)                                    \
+  case I:                                                  \
     g = pull_through<Op<(I < kOpCount ? I : 0)>>(p, c, g); \
     break;
       THALWEG_CASES_64(THALWEG_CASE, 0)
@@ -259,7 +260,8 @@ struct EnclosureMode {
   }
 };
 
-// --- the machine ------------------------------------------------------------------------------------------------------
+// --- the machine
+// ------------------------------------------------------------------------------------------------------
 
 template <class Declared, class Mode>
 HWY_INLINE void step(const Mode& mode, const Machine<typename Mode::T>& m, const Instruction& in,
@@ -298,13 +300,13 @@ HWY_INLINE typename Mode::Register run(const Mode& mode, const Machine<typename 
   const Instruction* const end = m.instructions + m.instruction_count;
   for (const Instruction* in = m.instructions; in != end; ++in) {
     switch (in->op) {
-#define THALWEG_CASE(I)                                                   \
-  case I:                                                                 \
-    if constexpr (I < kOpCount) {                                         \
-      using Declared = Op<(I < kOpCount ? I : 0)>;                        \
-      step<Declared>(mode, m, *in, acc);                                  \
-      if constexpr (kMovesPosition<Declared>) continue;                   \
-    }                                                                     \
+#define THALWEG_CASE(I)                                 \
+  case I:                                               \
+    if constexpr (I < kOpCount) {                       \
+      using Declared = Op<(I < kOpCount ? I : 0)>;      \
+      step<Declared>(mode, m, *in, acc);                \
+      if constexpr (kMovesPosition<Declared>) continue; \
+    }                                                   \
     break;
       THALWEG_CASES_64(THALWEG_CASE, 0)
 #undef THALWEG_CASE

@@ -95,12 +95,12 @@ HWY_INLINE void store(Pack<W> a, float* p) {
 
 // --- arithmetic: each line is one op on Real, on one vector and, by halves, on wider packs ---------------------------
 
-#define THALWEG_LANE_1(NAME, REAL, VECTOR)                    \
-  HWY_INLINE Real NAME(Real a) { return {REAL}; }             \
-  HWY_INLINE Pack<1> NAME(Pack<1> a) { return {VECTOR}; }     \
-  template <int W>                                            \
-  HWY_INLINE Pack<W> NAME(Pack<W> a) {                        \
-    return {NAME(a.lo), NAME(a.hi)};                          \
+#define THALWEG_LANE_1(NAME, REAL, VECTOR)                \
+  HWY_INLINE Real NAME(Real a) { return {REAL}; }         \
+  HWY_INLINE Pack<1> NAME(Pack<1> a) { return {VECTOR}; } \
+  template <int W>                                        \
+  HWY_INLINE Pack<W> NAME(Pack<W> a) {                    \
+    return {NAME(a.lo), NAME(a.hi)};                      \
   }
 #define THALWEG_LANE_2(NAME, REAL, VECTOR)                           \
   HWY_INLINE Real NAME(Real a, Real b) { return {REAL}; }            \
@@ -176,7 +176,8 @@ HWY_INLINE Pack<W> select(PackMask<W> m, Pack<W> yes, Pack<W> no) {
   return {select(m.lo, yes.lo, no.lo), select(m.hi, yes.hi, no.hi)};
 }
 
-// --- points and fields ------------------------------------------------------------------------------------------------
+// --- points and fields
+// ------------------------------------------------------------------------------------------------
 
 template <class T, int D>
 struct Point;
@@ -189,7 +190,8 @@ struct Point<T, 3> {
   T x, y, z;
 };
 
-/// The value of a field and its gradient. Templates fill both; where only the value is used the compiler drops the rest.
+/// The value of a field and its gradient. Templates fill both; where only the value is used the compiler drops the
+/// rest.
 template <class T, int D>
 struct Field {
   T value;

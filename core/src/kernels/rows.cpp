@@ -58,8 +58,7 @@ size_t rows_of(const Tape& tape, const float* points, size_t count, float* value
   return count - answered;
 }
 
-size_t rows_kernel(const Tape& tape, const float* points, size_t count, float* value, float* gradient,
-                   float* scratch) {
+size_t rows_kernel(const Tape& tape, const float* points, size_t count, float* value, float* gradient, float* scratch) {
   if (gradient == nullptr) {
     return tape.dimension == 2 ? rows_of<2, false>(tape, points, count, value, nullptr, scratch)
                                : rows_of<3, false>(tape, points, count, value, nullptr, scratch);

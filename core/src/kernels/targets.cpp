@@ -24,9 +24,7 @@ struct TargetList {
   std::vector<Target> targets;
 };
 
-bool fuses_multiply_add(std::int64_t target) {
-  return (target & (HWY_AVX2 | HWY_AVX3 | HWY_AVX3_DL | HWY_NEON)) != 0;
-}
+bool fuses_multiply_add(std::int64_t target) { return (target & (HWY_AVX2 | HWY_AVX3 | HWY_AVX3_DL | HWY_NEON)) != 0; }
 
 TargetList make_targets() {
   TargetList list;

@@ -85,7 +85,8 @@ namespace simd = HWY_NAMESPACE;
 
 Twin::Twin(const Tape& tape)
     : tape_(&tape),
-      memory_(static_cast<std::size_t>(tape.register_count) * 4 + static_cast<std::size_t>(tape.position_count) * 3 + 4),
+      memory_(static_cast<std::size_t>(tape.register_count) * 4 + static_cast<std::size_t>(tape.position_count) * 3 +
+              4),
       definition_(static_cast<std::size_t>(tape.position_count)) {}
 
 double Twin::value(const double* point) {

@@ -54,9 +54,8 @@ inline constexpr int kOpCount = __COUNTER__ - kFirstOp;
 /// Calls `visit.template operator()<Op<I>>(I)` for every op.
 template <class Visitor>
 void for_each_op(Visitor&& visit) {
-  [&]<int... I>(std::integer_sequence<int, I...>) {
-    (visit.template operator()<Op<I>>(I), ...);
-  }(std::make_integer_sequence<int, kOpCount>());
+  [&]<int... I>(std::integer_sequence<int, I...>) { (visit.template operator()<Op<I>>(I), ...); }
+  (std::make_integer_sequence<int, kOpCount>());
 }
 
 }  // namespace HWY_NAMESPACE

@@ -114,7 +114,8 @@ consteval OpParameter point(std::string_view name, std::string_view meaning, int
 
 consteval OpParameter ranged(std::string_view name, Quantity quantity, double least, double most,
                              std::string_view meaning) {
-  return {.name = name, .quantity = quantity, .arity = 1, .least = least, .most = most, .meaning = meaning, .choices = ""};
+  return {
+      .name = name, .quantity = quantity, .arity = 1, .least = least, .most = most, .meaning = meaning, .choices = ""};
 }
 
 consteval OpParameter direction(std::string_view name, std::string_view meaning, int arity) {

@@ -36,14 +36,14 @@ HWY_INLINE Field<T, D> smooth_lesser(const Field<T, D>& a, const Field<T, D>& b,
 
 inline constexpr std::string_view kSmoothKinds = "quadratic";
 
-#define THALWEG_SMOOTH_PARAMETERS                                                                                  \
-  static constexpr OpParameter kParameters[] = {                                                                   \
-      size_or_zero("k", "how far the blend departs from the hard operator, at most"),                              \
-      OpParameter {                                                                                                \
-    .name = "kind", .quantity = Quantity::choice, .meaning = "the polynomial of the blend", .choices = kSmoothKinds, \
-    .optional = true                                                                                               \
-      }                                                                                                            \
-  }
+#define THALWEG_SMOOTH_PARAMETERS                                                     \
+  static constexpr OpParameter kParameters[] = {                                      \
+      size_or_zero("k", "how far the blend departs from the hard operator, at most"), \
+      OpParameter{.name = "kind",                                                     \
+                  .quantity = Quantity::choice,                                       \
+                  .meaning = "the polynomial of the blend",                           \
+                  .choices = kSmoothKinds,                                            \
+                  .optional = true}}
 
 THALWEG_OP {
   static constexpr Declaration kDeclaration{

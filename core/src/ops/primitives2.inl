@@ -122,9 +122,7 @@ THALWEG_OP {
   static constexpr OpParameter kParameters[] = {point("a", "one end", 2), point("b", "the other end", 2)};
   static PrimitiveFacts facts(Numbers) { return {.convex = true, .is_unsigned = true}; }
   static Bounds bounds(Numbers p) { return point_bounds(p, 2); }
-  static void derive(Numbers p, Constants64 & c) {
-    c = {p[2], p[3], inverse_or_zero(p[2] * p[2] + p[3] * p[3])};
-  }
+  static void derive(Numbers p, Constants64 & c) { c = {p[2], p[3], inverse_or_zero(p[2] * p[2] + p[3] * p[3])}; }
 
   template <class T>
   static HWY_INLINE Field<T, 2> field(Point<T, 2> p, Constants<T> c) {
@@ -145,9 +143,7 @@ THALWEG_OP {
                                                 point("c", "a corner; a, b, c must not lie on one line", 2)};
   static PrimitiveFacts facts(Numbers) { return {.convex = true}; }
   static Bounds bounds(Numbers p) { return point_bounds(p, 2); }
-  static double twice_area(Numbers p) {
-    return (p[2] - p[0]) * (p[5] - p[1]) - (p[3] - p[1]) * (p[4] - p[0]);
-  }
+  static double twice_area(Numbers p) { return (p[2] - p[0]) * (p[5] - p[1]) - (p[3] - p[1]) * (p[4] - p[0]); }
   static std::optional<Complaint> check(Numbers p) {
     const double longest = std::max({std::hypot(p[2] - p[0], p[3] - p[1]), std::hypot(p[4] - p[2], p[5] - p[3]),
                                      std::hypot(p[0] - p[4], p[1] - p[5])});

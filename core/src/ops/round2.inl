@@ -39,8 +39,7 @@ THALWEG_OP {
                                             .note = "one tip points along +y; folded by reflections, no trigonometry",
                                             .rounding = 24};
   static constexpr OpParameter kParameters[] = {
-      size("radius", "distance from the centre to a tip"),
-      ranged("points", Quantity::count, 3, 1e6, "number of tips"),
+      size("radius", "distance from the centre to a tip"), ranged("points", Quantity::count, 3, 1e6, "number of tips"),
       ranged("sharpness", Quantity::number, 2, 1e6, "2: a regular polygon; `points`: spokes without area")};
   static PrimitiveFacts facts(Numbers p) { return {.convex = p[2] == 2}; }
   static Bounds bounds(Numbers p) { return box_bounds({-p[0], -p[0]}, {p[0], p[0]}); }
@@ -60,7 +59,15 @@ THALWEG_OP {
     const double length = std::hypot(ex, ey);
     const double nx = ey / length;
     const double ny = -ex / length;
-    c = {p[0], ex, ey, inverse_or_zero(length * length), nx, ny, nx + 1, ny, nx + std::cos(sector),
+    c = {p[0],
+         ex,
+         ey,
+         inverse_or_zero(length * length),
+         nx,
+         ny,
+         nx + 1,
+         ny,
+         nx + std::cos(sector),
          ny + std::sin(sector)};
     double angle = sector;
     std::vector<double> lines;
@@ -273,11 +280,11 @@ THALWEG_OP {
   static Bounds bounds(Numbers p) { return box_bounds({-0.4 * p[0], -p[0]}, {0.4 * p[0], p[0]}); }
   /// The five strokes of the upper half as start, edge, 1 / edge^2; then the outline's levels.
   static void derive(Numbers p, Constants64 & c) {
-    static constexpr double kStrokes[5][4] = {{0, 1, 0.4, -0.4},       // roof
-                                              {0.4, 0.2, 0, 0.4},      // side
-                                              {0, -0.2, 0.4, 0.4},     // waist, drawn on across the lower diagonal
-                                              {0, 0.2, 0, 0.4},        // inner upright
-                                              {0, 0.2, 0.2, -0.2}};    // diagonal
+    static constexpr double kStrokes[5][4] = {{0, 1, 0.4, -0.4},     // roof
+                                              {0.4, 0.2, 0, 0.4},    // side
+                                              {0, -0.2, 0.4, 0.4},   // waist, drawn on across the lower diagonal
+                                              {0, 0.2, 0, 0.4},      // inner upright
+                                              {0, 0.2, 0.2, -0.2}};  // diagonal
     for (const auto& s : kStrokes) {
       const double square = (s[2] * s[2] + s[3] * s[3]) * p[0] * p[0];
       c.insert(c.end(), {s[0] * p[0], s[1] * p[0], s[2] * p[0], s[3] * p[0], inverse_or_zero(square)});

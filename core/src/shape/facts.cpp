@@ -41,9 +41,7 @@ class LevelBounds {
 
  private:
   /// Facts of operands are complete, so their level 0 is at hand.
-  Bounds operand(const Shape& shape, double level) {
-    return level == 0 ? shape.facts().bounds : (*this)(shape, level);
-  }
+  Bounds operand(const Shape& shape, double level) { return level == 0 ? shape.facts().bounds : (*this)(shape, level); }
 
   Bounds compute(const Shape& shape, double level) {
     const Entry& entry = entry_of(shape);
@@ -72,8 +70,8 @@ class LevelBounds {
     Bounds all = operand(of[0], level + widening * static_cast<double>(of.size() - 1));
     for (std::size_t i = 1; i < of.size(); ++i) {
       const double at = level + widening * static_cast<double>(of.size() - i);
-      all = joined(all, entry.bounds_rule == BoundsRule::first ? all : operand(of[i], at), entry.bounds_rule,
-                   dimension);
+      all =
+          joined(all, entry.bounds_rule == BoundsRule::first ? all : operand(of[i], at), entry.bounds_rule, dimension);
     }
     return all;
   }
@@ -129,7 +127,8 @@ Facts derive_facts(const Shape& shape) {
   } else {
     const ops::JoinedFacts own = own_facts(shape, entry);
     facts = {shape.operands()[0].dimension(), own.outside, own.inside, 0.0, own.convex, own.is_unsigned, {}};
-    for (const Shape& operand : shape.operands()) facts.lipschitz = std::max(facts.lipschitz, operand.facts().lipschitz);
+    for (const Shape& operand : shape.operands())
+      facts.lipschitz = std::max(facts.lipschitz, operand.facts().lipschitz);
     facts.lipschitz *= entry.stretch;
   }
   facts.bounds = LevelBounds()(shape, 0);

@@ -51,8 +51,8 @@ double Bounds::diagonal(int dimension) const {
   return std::sqrt(square);
 }
 
-Result<Shape> Shape::make(std::string_view op, int dimension, std::span<const double> parameters,
-                          std::vector<Shape> of, int variant) {
+Result<Shape> Shape::make(std::string_view op, int dimension, std::span<const double> parameters, std::vector<Shape> of,
+                          int variant) {
   const std::vector<int> rows = ops::find_ops(op, dimension);
   if (static_cast<std::size_t>(variant) >= rows.size()) {
     return Error{.file = "",

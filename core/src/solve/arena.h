@@ -52,10 +52,9 @@ class Arena {
     used_ = 0;
   }
   void add(std::size_t bytes) {
-    chunks_.push_back(
-        {std::unique_ptr<std::byte[], Free>(
-             static_cast<std::byte*>(::operator new[](bytes, std::align_val_t{kAlignment}))),
-         bytes});
+    chunks_.push_back({std::unique_ptr<std::byte[], Free>(
+                           static_cast<std::byte*>(::operator new[](bytes, std::align_val_t{kAlignment}))),
+                       bytes});
   }
 
   std::vector<Chunk> chunks_;

@@ -100,16 +100,17 @@ class Certifier {
   /// What one wave learns of a query; valid for the level that it names.
   struct Progress {
     uint32_t level;
-    uint32_t open;       ///< open cells
-    float open_lower;    ///< least bound over them
-    bool improved;       ///< the incumbent is of this wave
-    bool unresolved;     ///< some open cell is too small for float32
-    bool keeps;          ///< the query goes on in the next wave
+    uint32_t open;     ///< open cells
+    float open_lower;  ///< least bound over them
+    bool improved;     ///< the incumbent is of this wave
+    bool unresolved;   ///< some open cell is too small for float32
+    bool keeps;        ///< the query goes on in the next wave
   };
 
   [[nodiscard]] bool wants_deepest() const { return limits_.goal == Goal::deepest; }
 
-  // --- wave 0 ---------------------------------------------------------------------------------------------------------
+  // --- wave 0
+  // ---------------------------------------------------------------------------------------------------------
 
   void first_wave() {
     const size_t n = tile_.count;
@@ -168,7 +169,8 @@ class Certifier {
     }
   }
 
-  // --- wave k ---------------------------------------------------------------------------------------------------------
+  // --- wave k
+  // ---------------------------------------------------------------------------------------------------------
 
   /// The open cells of the next wave: those left by the last one, or a batch that waits. False at the end.
   bool refill() {
@@ -267,7 +269,8 @@ class Certifier {
     if (value < -state_.slack[q]) state_.witness[q] = 1;
   }
 
-  // --- probes -----------------------------------------------------------------------------------------------------------
+  // --- probes
+  // -----------------------------------------------------------------------------------------------------------
 
   /// Looks once for a lower value near each new incumbent.
   void probe() {
@@ -322,7 +325,8 @@ class Certifier {
     }
   }
 
-  // --- what stays open --------------------------------------------------------------------------------------------------
+  // --- what stays open
+  // --------------------------------------------------------------------------------------------------
 
   /// A cell is closed when its bound is above this: no point of it can change the answer.
   [[nodiscard]] float threshold(uint32_t q) const {

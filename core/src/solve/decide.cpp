@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Best first, by lower bound. A cell is given by exact dyadic numbers, so children tile their parent; its corners and
-// centre are rounded to double and the slack covers that. The reported point is a float32 one, and what is said of it is
-// evaluated at it.
+// centre are rounded to double and the slack covers that. The reported point is a float32 one, and what is said of it
+// is evaluated at it.
 #include "solve/decide.h"
 
 #include <algorithm>

@@ -43,7 +43,8 @@ struct Lanes {
 
 class Descent {
  public:
-  Descent(const TriangleTile& tile, TileScratch& scratch) : tile_(tile), limits_(*tile.limits), arena_(scratch.arena), probes_(scratch.probes) {
+  Descent(const TriangleTile& tile, TileScratch& scratch)
+      : tile_(tile), limits_(*tile.limits), arena_(scratch.arena), probes_(scratch.probes) {
     arena_.reset();
     dimension_ = static_cast<std::size_t>(tile.tape->dimension);
     state_ = QueryState::make(arena_, tile.tape->dimension, tile.count);
@@ -86,8 +87,8 @@ class Descent {
   void locate(std::size_t lane) {
     const float* corners = row(lanes_.query[lane]);
     for (std::size_t axis = 0; axis < dimension_; ++axis) {
-      lanes_.points[axis][lane] = lanes_.at[lane].of(corners[axis], corners[dimension_ + axis],
-                                                     corners[2 * dimension_ + axis]);
+      lanes_.points[axis][lane] =
+          lanes_.at[lane].of(corners[axis], corners[dimension_ + axis], corners[2 * dimension_ + axis]);
     }
   }
 
@@ -95,7 +96,8 @@ class Descent {
     tile_.kernels->value(*tile_.tape, lanes_.points, lanes_.count, lanes_.value, kernel_scratch_);
   }
 
-  // --- starts ---------------------------------------------------------------------------------------------------------
+  // --- starts
+  // ---------------------------------------------------------------------------------------------------------
 
   void choose_starts(std::uint32_t start) {
     lanes_.count = 0;
@@ -149,7 +151,8 @@ class Descent {
     return most > 0 ? 0.5F / std::sqrt(most) : 0;
   }
 
-  // --- steps ----------------------------------------------------------------------------------------------------------
+  // --- steps
+  // ----------------------------------------------------------------------------------------------------------
 
   void iterate() {
     const GradientColumns columns{lanes_.points, lanes_.count, lanes_.value, lanes_.gradient};
@@ -201,18 +204,20 @@ class Descent {
     float slope[3] = {};
     for (std::size_t corner = 0; corner < 3; ++corner) {
       for (std::size_t axis = 0; axis < dimension_; ++axis) {
-        slope[corner] += lanes_.gradient[axis][lane] * (corners[corner * dimension_ + axis] - lanes_.points[axis][lane]);
+        slope[corner] +=
+            lanes_.gradient[axis][lane] * (corners[corner * dimension_ + axis] - lanes_.points[axis][lane]);
       }
     }
     const Barycentric before = lanes_.at[lane];
     const float step = lanes_.step[lane];
     lanes_.step[lane] *= 0.8F;
-    lanes_.at[lane] = project_on_simplex(before.a - step * slope[0], before.b - step * slope[1],
-                                         before.c - step * slope[2]);
+    lanes_.at[lane] =
+        project_on_simplex(before.a - step * slope[0], before.b - step * slope[1], before.c - step * slope[2]);
     return distance(before, lanes_.at[lane]) < 1e-3F;
   }
 
-  // --- results --------------------------------------------------------------------------------------------------------
+  // --- results
+  // --------------------------------------------------------------------------------------------------------
 
   /// Lanes that stop wait until their values are taken together.
   void retire(std::size_t lane) {

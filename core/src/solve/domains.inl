@@ -258,8 +258,8 @@ class TriangleDomain {
     const auto third = hn::Set(d, 1.0F / 3.0F);
     V32 square[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
     for (size_t axis = 0; axis < D; ++axis) {
-      const auto centre = hn::MulAdd(
-          hn::Add(hn::Sub(q.x[axis], p.x[axis]), hn::Sub(r.x[axis], p.x[axis])), third, p.x[axis]);
+      const auto centre =
+          hn::MulAdd(hn::Add(hn::Sub(q.x[axis], p.x[axis]), hn::Sub(r.x[axis], p.x[axis])), third, p.x[axis]);
       hn::StoreU(centre, d, wave.centre[axis] + at);
       for (size_t k = 0; k < 3; ++k) {
         const auto edge = hn::Sub(corners[k]->x[axis], centre);

@@ -205,8 +205,8 @@ QueryState QueryState::make(Arena& arena, int dimension, std::size_t count) {
   const std::size_t room = padded(count);
   QueryState s;
   for (int axis = 0; axis < dimension; ++axis) s.point[axis] = arena.take<float>(room);
-  for (float** column : {&s.value, &s.lower, &s.slack, &s.barycentric[0], &s.barycentric[1], &s.witness, &s.converged,
-                         &s.is_bad}) {
+  for (float** column :
+       {&s.value, &s.lower, &s.slack, &s.barycentric[0], &s.barycentric[1], &s.witness, &s.converged, &s.is_bad}) {
     *column = arena.take<float>(room);
   }
   s.evaluations = arena.take<std::uint32_t>(room);

@@ -10,11 +10,11 @@ namespace thalweg {
 
 /// The findings on a tile's queries, one entry each; columns are padded for the kernels.
 struct QueryState {
-  float* point[3] = {};            ///< deepest point found
-  float* value = nullptr;          ///< f there
-  float* lower = nullptr;          ///< proven lower bound, -inf where there is none
-  float* slack = nullptr;          ///< rounding slack of the query's float32 evaluations
-  float* barycentric[2] = {};      ///< of the second and third corner; triangles only
+  float* point[3] = {};        ///< deepest point found
+  float* value = nullptr;      ///< f there
+  float* lower = nullptr;      ///< proven lower bound, -inf where there is none
+  float* slack = nullptr;      ///< rounding slack of the query's float32 evaluations
+  float* barycentric[2] = {};  ///< of the second and third corner; triangles only
   std::uint32_t* evaluations = nullptr;
   std::uint32_t* iterations = nullptr;
   // Flags are 1 or 0, as floats: they meet masks of float lanes.

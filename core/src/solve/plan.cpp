@@ -22,12 +22,10 @@ constexpr std::array kMethods = {Word{"certified", Method::certified}, Word{"the
                                  Word{"projected", Method::projected}, Word{"descent", Method::projected},
                                  Word{"published", Method::published}};
 constexpr std::array kGoals = {Word{"verdict", Goal::verdict}, Word{"deepest", Goal::deepest}};
-constexpr std::array kGradients = {Word{"autodiff", Gradient::autodiff},
-                                   Word{"central", Gradient::central},
-                                   Word{"forward", Gradient::forward},
-                                   Word{"simplex", Gradient::simplex},
-                                   Word{"dichotomy", Gradient::dichotomy},
-                                   Word{"dichotomy:verbatim", Gradient::dichotomy_verbatim}};
+constexpr std::array kGradients = {
+    Word{"autodiff", Gradient::autodiff},   Word{"central", Gradient::central},
+    Word{"forward", Gradient::forward},     Word{"simplex", Gradient::simplex},
+    Word{"dichotomy", Gradient::dichotomy}, Word{"dichotomy:verbatim", Gradient::dichotomy_verbatim}};
 
 template <class Words>
 std::string list(const Words& words) {
@@ -127,8 +125,7 @@ Result<SolveLimits> plan(const Tape& tape, QueryKind kind, const CollideOptions&
   limits.tolerance = options.tolerance > 0 ? options.tolerance : default_tolerance(tape);
   limits.slack = tape.search_slack;
   limits.slack64 = {.a = limits.slack.a * Twin::kSlackRatio, .b = limits.slack.b * Twin::kSlackRatio};
-  const bool dichotomy =
-      limits.gradient == Gradient::dichotomy || limits.gradient == Gradient::dichotomy_verbatim;
+  const bool dichotomy = limits.gradient == Gradient::dichotomy || limits.gradient == Gradient::dichotomy_verbatim;
   if (options.method != Method::certified && dichotomy && tape.dimension != 2) {
     return refused("--gradient", "a strategy for 3D: autodiff, central, forward, simplex", name(limits.gradient));
   }

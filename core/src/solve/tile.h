@@ -59,5 +59,4 @@ struct TileScratch {
   std::vector<HeapCell> heap;  ///< of the search in double
 };
 
-
 }  // namespace thalweg

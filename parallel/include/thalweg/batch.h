@@ -20,8 +20,8 @@ struct Execution {
   int threads = 0;                 ///< 0: every core of the caller's arena; 1: the calling thread alone, no pool
   std::size_t tile = 0;            ///< queries per tile; 0: chosen
   const Target* target = nullptr;  ///< null: default_target()
-  std::atomic<std::size_t>* done = nullptr;        ///< when set, counts finished rows, for progress
-  const std::atomic<bool>* cancelled = nullptr;    ///< when set and true, tiles not yet begun are left out
+  std::atomic<std::size_t>* done = nullptr;      ///< when set, counts finished rows, for progress
+  const std::atomic<bool>* cancelled = nullptr;  ///< when set and true, tiles not yet begun are left out
 };
 
 /// Totals over a batch.

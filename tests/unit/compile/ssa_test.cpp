@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -156,6 +157,17 @@ TEST(Compiler, MarksSupportOnlyWhereOnlyRigidMotionsLieBetween) {
   EXPECT_FALSE(last(cool_s()) & Instruction::kSupport);
   EXPECT_FALSE(last(pie(2, 1)) & Instruction::kSupport) << "a pie of more than half a disc is not convex";
   EXPECT_TRUE(last(pie(1, 1)) & Instruction::kSupport);
+}
+
+TEST(Compiler, RefusesLengthsThatAScaleMakesTooLarge) {
+  const auto is_refused = [](double size, double factor) {
+    const auto scaled = Shape::make("scale", 2, std::array{factor}, {segment(Vec2{0, 0}, Vec2{size, size})});
+    return !scaled || !compile(*scaled);
+  };
+  EXPECT_TRUE(is_refused(1e15, 1e15));
+  EXPECT_FALSE(is_refused(1, 1e14));
+  EXPECT_FALSE(is_refused(1e15, 1e-15));
+  EXPECT_FALSE(is_refused(1e-15, 1e15));
 }
 
 TEST(RoundingBound, GrowsWithTheQuerysMagnitudeAndWithSizes) {
