@@ -83,7 +83,8 @@ template <class Op>
 inline constexpr bool kMovesPosition = Op::kDeclaration.kind == OpKind::warp ||
                                        (Op::kDeclaration.kind == OpKind::place && Op::kDeclaration.name == "rigid");
 
-// clang-format off: it does not settle on these two
+// It does not settle on these two.
+// clang-format off
 #define THALWEG_CASES_8(CASE, N) \
   CASE(N) CASE(N + 1) CASE(N + 2) CASE(N + 3) CASE(N + 4) CASE(N + 5) CASE(N + 6) CASE(N + 7)
 #define THALWEG_CASES_64(CASE, N)                                                     \
