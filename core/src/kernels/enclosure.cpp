@@ -62,7 +62,8 @@ void enclosure_of(const Tape& tape, const float* const* centres, const CellColum
   const Machine<T> m = machine_for<kGradientWidth>(tape, scratch, 3);
   const size_t lanes = lanes_of<T>();
   for (size_t i = 0; i < count; i += lanes) {
-    for (int axis = 0; axis < D; ++axis) store(Make<T>::load(centres[axis] + i), m.positions + axis * lanes);
+    for (int axis = 0; axis < D; ++axis)
+      store(Make<T>::load(centres[axis] + i), m.positions + static_cast<size_t>(axis) * lanes);
     const EnclosureMode<T, D, ColumnCell<T, D>> mode{{&cells, i}};
     const auto f = run(mode, m);
     store(f.lo, lo + i);

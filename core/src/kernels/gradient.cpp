@@ -21,7 +21,8 @@ void gradient_of(const Tape& tape, const float* const* points, size_t count, flo
   const Machine<T> m = machine_for<kGradientWidth>(tape, scratch, 1 + D);
   const size_t lanes = lanes_of<T>();
   for (size_t i = 0; i < count; i += lanes) {
-    for (int axis = 0; axis < D; ++axis) store(Make<T>::load(points[axis] + i), m.positions + axis * lanes);
+    for (int axis = 0; axis < D; ++axis)
+      store(Make<T>::load(points[axis] + i), m.positions + static_cast<size_t>(axis) * lanes);
     const Field<T, D> f = run(GradientMode<T, D>{}, m);
     store(f.value, value + i);
     store(f.gradient.x, gradient[0] + i);

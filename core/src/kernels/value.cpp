@@ -20,7 +20,8 @@ void value_of(const Tape& tape, const float* const* points, size_t count, float*
   const Machine<T> m = machine_for<kValueWidth>(tape, scratch, 1);
   const size_t lanes = lanes_of<T>();
   for (size_t i = 0; i < count; i += lanes) {
-    for (int axis = 0; axis < D; ++axis) store(Make<T>::load(points[axis] + i), m.positions + axis * lanes);
+    for (int axis = 0; axis < D; ++axis)
+      store(Make<T>::load(points[axis] + i), m.positions + static_cast<size_t>(axis) * lanes);
     store(run(ValueMode<T, D>{}, m).value, value + i);
   }
 }
