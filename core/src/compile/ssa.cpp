@@ -23,6 +23,8 @@ using ops::Similarity;
 constexpr double kEps = 0x1p-24;
 /// Squares below the smallest normal float32 vanish: an absolute error of its square root.
 constexpr double kUnderflow = 0x1p-62;
+/// Squares of lengths beyond this overflow float32.
+constexpr double kMostExtent = 1e18;
 
 const Entry& entry_of(int op) { return ops::registry()[static_cast<std::size_t>(op)]; }
 
@@ -93,6 +95,12 @@ class Flattener {
       return Error{.file = "",
                    .place = "/shape",
                    .expected = "at most " + std::to_string(kMostValues) + " operations",
+                   .found = "more"};
+    }
+    if (const double size = ssa_.values[static_cast<std::size_t>(ssa_.root)].size.a; !(size <= kMostExtent)) {
+      return Error{.file = "",
+                   .place = "/shape",
+                   .expected = "sizes and places that add up to at most 1e18 once scaled",
                    .found = "more"};
     }
     return std::move(ssa_);

@@ -181,7 +181,7 @@ THALWEG_OP {
                                             .kind = OpKind::map,
                                             .exactness = "exact outside of an exact field; inside too if convex",
                                             .note = "f - radius",
-                                            .rounding = 1};
+                                            .rounding = 2};
   static constexpr OpParameter kParameters[] = {size_or_zero("radius", "how far the surface is moved out")};
   static constexpr int kTrend = 1;
   static double operand_level(double level, Numbers p) { return level + p[0]; }
@@ -203,7 +203,7 @@ THALWEG_OP {
                                             .kind = OpKind::map,
                                             .exactness = "exact outside of an exact field; a bound inside",
                                             .note = "abs(f) - thickness",
-                                            .rounding = 1};
+                                            .rounding = 2};
   static constexpr OpParameter kParameters[] = {size("thickness", "half of the wall's width")};
   static constexpr int kTrend = 0;
   static double operand_level(double level, Numbers p) { return level + p[0]; }

@@ -187,10 +187,11 @@ THALWEG_OP {
       highest = select(side < height, n, highest);
       side = max(side, height);
     }
-    // Inside, the edge of greatest height is the nearest one. Outside, the normal of a face is exact where the
-    // residual of a point close to it is noise.
-    const auto is_outside = zero<T>() < side;
+    // Inside, the edge of greatest height is the nearest one, and its height the distance to it: heights that are all
+    // negative by rounding alone, beyond the tip of a needle, are told by a distance that is far more. Outside, the
+    // normal of a face is exact where the residual of a point close to it is noise.
     const T distance = sqrt(square);
+    const auto is_outside = zero<T>() < mul_add(Make<T>::set(2.0), side, distance);
     const auto on_face = both(zero<T>() < along, along < one<T>());
     const Point<T, 2> direction = select(on_face, nearest, scaled(residual, reciprocal_or_zero(distance)));
     return {select(is_outside, distance, side), select(is_outside, direction, highest)};

@@ -236,7 +236,8 @@ THALWEG_OP {
   static void derive(Numbers p, Constants64 & c) {
     const double x = (p[0] + (p[1] - p[2]) * (p[1] + p[2]) / p[0]) / 2;
     // Heron's formula for the height of the triangle of both centres and the corner: no cancellation for a small rb.
-    const double product = (p[0] + p[1] - p[2]) * (p[0] - p[1] + p[2]) * (p[1] + p[2] - p[0]) * (p[0] + p[1] + p[2]);
+    const double excess = p[1] - p[2];
+    const double product = (p[0] + excess) * (p[0] - excess) * (p[1] + p[2] - p[0]) * (p[0] + p[1] + p[2]);
     c = {p[0], p[1], p[2], x, std::sqrt(std::max(0.0, product)) / (2 * p[0])};
   }
 
