@@ -14,6 +14,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools" / "lint"))
 import cpp_text  # noqa: E402
 import layering  # noqa: E402
 import links  # noqa: E402
+import lists  # noqa: E402
 import shape_of_files  # noqa: E402
 import source_tree  # noqa: E402
 
@@ -73,6 +74,21 @@ class Layering(TreeTest):
         self.assertIn("std::cerr", self.fault("parallel/src/a.cpp", "void f() { std::cerr << 1; }\n"))
         self.assertIn("never prints", self.fault("core/src/a.cpp", "void f() { std::exit(1); }\n"))
         self.assertEqual("", self.fault("core/src/a.cpp", '// std::cerr << 1\nconst char* s = "printf(";\n'))
+
+
+class SourceLists(TreeTest):
+    def faults(self, files: dict[str, str]) -> str:
+        return messages(lists.check(self.tree(files)))
+
+    def test_a_source_that_no_list_names_is_found(self):
+        files = {"core/CMakeLists.txt": "add_library(core src/a.cpp)\n", "core/src/a.cpp": "", "core/src/aa.cpp": ""}
+        self.assertEqual("core/CMakeLists.txt:1: src/aa.cpp is in no list of sources", self.faults(files))
+        self.assertIn("no CMakeLists.txt", self.faults({"core/src/a.cpp": ""}))
+
+    def test_a_test_program_lists_its_files_below_its_folder(self):
+        files = {"tests/CMakeLists.txt": "program(\n  unit\n  shape/a_test.cpp)\n", "tests/unit/shape/a_test.cpp": ""}
+        self.assertEqual("", self.faults(files))
+        self.assertIn("unit/shape/b_test.cpp", self.faults({**files, "tests/unit/shape/b_test.cpp": ""}))
 
 
 class FunctionLengths(TreeTest):

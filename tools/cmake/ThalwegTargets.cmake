@@ -32,14 +32,13 @@ function(thalweg_configure target)
             $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 endfunction()
 
-# thalweg_library(<target> <export name>): a library of the package, with its public headers in include/thalweg.
+# thalweg_library(<target> <export name> <public header>...): a library of the package.
 function(thalweg_library target export_name)
   add_library(${target})
   add_library(thalweg::${export_name} ALIAS ${target})
   thalweg_configure(${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name} VERSION ${PROJECT_VERSION} SOVERSION
                                                                                                    ${PROJECT_VERSION})
-  file(GLOB headers CONFIGURE_DEPENDS include/thalweg/*.h)
-  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${headers})
+  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${ARGN})
   target_include_directories(${target} PRIVATE src)
 endfunction()
