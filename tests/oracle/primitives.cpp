@@ -138,11 +138,11 @@ double moon(const double* n, std::size_t, Vec p) {
   const double inner = rb - std::hypot(p.x - offset, p.y);
   if (std::abs(x) >= ra) return std::max(outer, inner);
   const Vec horn{x, std::sqrt(std::max(square, 0.0)), 0};
-  // Each arc counts only where the foot of the perpendicular on its circle belongs to the moon's outline.
-  const double to_outer = std::hypot(p.x, p.y);
-  const bool outer_foot = to_outer == 0 || (p.x / to_outer * ra <= x) == (offset > 0);
-  const double reach = std::hypot(p.x - offset, p.y);
-  const bool inner_foot = reach == 0 || (offset + (p.x - offset) / reach * rb <= x) == (offset > 0);
+  // Each arc counts only where the foot of the perpendicular on its circle belongs to the moon's outline: where the
+  // direction from the circle's centre is no nearer to +x than the horn's. Turns keep the digits that differences of
+  // coordinates lose when one circle is far greater than the other.
+  const bool outer_foot = horn.x * p.y >= horn.y * p.x;
+  const bool inner_foot = (horn.x - offset) * p.y >= horn.y * (p.x - offset);
   double nearest = distance(p, horn);
   if (outer_foot) nearest = std::min(nearest, std::abs(outer));
   if (inner_foot) nearest = std::min(nearest, std::abs(inner));

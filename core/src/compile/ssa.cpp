@@ -32,6 +32,11 @@ Affine larger(Affine x, Affine y) { return {std::max(x.a, y.a), std::max(x.b, y.
 Affine plus(Affine x, Affine y) { return {x.a + y.a, x.b + y.b}; }
 Affine times(double s, Affine x) { return {s * x.a, s * x.b}; }
 
+/// See Declaration::rounding.
+Affine combine_rounding(double rounding, Affine size, double extent) {
+  return rounding == 0 ? Affine{} : plus(times(kEps, size), {rounding * kEps * extent, 0});
+}
+
 std::array<double, 3> rotated(const Similarity& s, const double* v, int dimension) {
   std::array<double, 3> out = {0, 0, 0};
   for (std::size_t row = 0; row < static_cast<std::size_t>(dimension); ++row) {
@@ -248,7 +253,7 @@ class Flattener {
                   .constants = constants,
                   .size = plus(larger(a.size, b.size), {extent_here, 0}),
                   .error = {}};
-      value.error = plus(larger(a.error, b.error), times(entry.row.rounding * kEps, value.size));
+      value.error = plus(larger(a.error, b.error), combine_rounding(entry.row.rounding, value.size, extent_here));
       folded = add(std::move(value));
     }
     return folded;

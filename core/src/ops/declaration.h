@@ -64,8 +64,9 @@ struct Declaration {
   int dimension = 0;
   std::string_view exactness;
   std::string_view note = "";
-  /// Rounding error of one float32 evaluation in units of eps * (|local point| + |translation| + sizes), for
-  /// operators of eps * (|operand values| + sizes). Held against the double twin by the conformance tests.
+  /// Rounding error of one float32 evaluation in units of eps * (|local point| + |translation| + sizes), for map
+  /// operators of eps * (|operand value| + sizes), for combining ones of eps * sizes beside one rounding of the result,
+  /// and 0 for a mere choice. Held against the oracle by the conformance tests.
   double rounding = 8;
   /// The parameters describe the op in any orientation (points, directions, or full symmetry): rotations need no
   /// instruction of their own.

@@ -32,8 +32,9 @@ HWY_INLINE Foot<T, D> foot_on_edge(Point<T, D> w, Point<T, D> edge, T inverse_sq
   return {along, w - scaled(edge, along)};
 }
 
-/// 1 / a, or 0 where a, the square of a length, is too small for float32: an edge below 2^-62 is a point.
-inline double inverse_or_zero(double square) { return square < 0x1p-124 ? 0.0 : 1.0 / square; }
+/// 1 / a, or 0 where a, the square of a length, is too small: an edge of no length is a point. To float32 one below
+/// 2^-62 is (see constants of a Tape), to the twin in double one below 2^-500.
+inline double inverse_or_zero(double square) { return square < 0x1p-1000 ? 0.0 : 1.0 / square; }
 
 /// Which side of the ray from the origin along (sine, cosine) a point with x >= 0 lies on: positive beyond the wedge
 /// around +y. Behind the apex the axis decides too, which keeps the sign right for wedges of any width.

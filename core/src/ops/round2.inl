@@ -212,7 +212,8 @@ THALWEG_OP {
     const auto on_side = either(end <= radial, zero<T>() < c[4]);
     const T inverse = reciprocal_or_zero(select(on_side, r, distance));
     const T g_across = select(past <= zero<T>(), one<T>(), across * copysign(inverse, end));
-    const T g_along = copysign(past * inverse, along);
+    // Inside, a corner is nearest only where a radius of 0 makes the end and the inner circle meet.
+    const T g_along = copysign(past, along) * copysign(inverse, end);
     const Point<T, 2> g_end = {mul_add(g_across, ray.y, g_along * ray.x),
                                neg_mul_add(g_across, ray.x, g_along * ray.y)};
     const Point<T, 2> g = select(on_side, scaled(q, copysign(inverse, r - c[2])), g_end);

@@ -37,6 +37,27 @@ TEST(Segment, ShorterThanTheSmallestLengthIsNoPoint) {
   expect_value(segment(Vec2{-1e-18, -1e-18}, Vec2{-1e-15, -1e-18}), {-5e-16, 0}, 1e-18);
 }
 
+TEST(Segment, TooShortForFloat32KeepsItsLengthInDouble) {
+  const Tape tape = compiled(segment(Vec2{-1e-22, -1e-22}, Vec2{1e-22, -1e-22}));
+  EXPECT_NEAR(in_double(tape, 0, 0), 1e-22, 1e-34);
+  EXPECT_NEAR(in_double(tape, 3e-22, 3e-22), std::hypot(2e-22, 4e-22), 1e-34);
+}
+
+TEST(Ring, WithoutAHolePointsAwayFromItsCentre) {
+  // The end's inner corner and the circle of radius 0 are the same point: rounding decides which of them is nearest.
+  const Tape tape = compiled(ring(std::numbers::pi - 1e-6, 0.5, 1));
+  for (int i = 0; i < 1000; ++i) {
+    const double angle = 0.0015 * i, r = 0.0004 * (i + 100);
+    const float p[2] = {static_cast<float>(r * std::sin(angle)), static_cast<float>(r * std::cos(angle))};
+    for (const Target& target : targets()) {
+      float gradient[2] = {};
+      evaluate(tape, p, 1, nullptr, gradient, Gradient::autodiff, {.threads = 1, .target = &target});
+      EXPECT_NEAR(gradient[0], -p[0] / r, 1e-6) << i << ' ' << target.name;
+      EXPECT_NEAR(gradient[1], -p[1] / r, 1e-6) << i << ' ' << target.name;
+    }
+  }
+}
+
 TEST(Circle, HasNoGradientAboveOneNextToItsCentre) {
   const Tape tape = compiled(circle(1));
   for (const double r : {1e-15, 1e-18, 1e-19, 3e-20, 1e-21, 1e-22, 4e-23, 1e-24, 1e-30, 1e-42}) {
@@ -71,6 +92,18 @@ TEST(Triangle, ThinnerThanFloat32CanTellIsOutsideBeyondItsTip) {
       const float x = 0.01F * static_cast<float>(i), y = 1.4142F + 2.8284F * x;
       expect_value(needle, {x, y}, std::hypot(static_cast<double>(x), y - 1.4142));
     }
+  }
+}
+
+TEST(Blend, StatesARoundingThatCoversItsWidthAroundSmallOperands) {
+  const double k = 1.2751157890034408, radius = 0.058720422959304755;
+  const Tape tape = compiled(smooth_subtraction(k, {sphere(radius), sphere(radius)}));
+  const float p[3] = {0.023251527920365334F, -0.042133037000894547F, -0.028707548975944519F};
+  const double at[3] = {p[0], p[1], p[2]};
+  for (const Target& target : targets()) {
+    float value = 0;
+    evaluate(tape, p, 1, &value, nullptr, Gradient::autodiff, {.threads = 1, .target = &target});
+    EXPECT_NEAR(value, evaluate_double(tape, at, nullptr), tape.slack(0.05)) << target.name;
   }
 }
 
