@@ -39,7 +39,7 @@ struct Columns {
 /// Both answers at every point, within what float32 leaves open; where they differ in the gradient, which is
 /// discontinuous, the point must be rare. Returns what is wrong, or nothing.
 std::string disagreement(const LoadedScene& scene, const NativeScene& native, Columns& c) {
-  evaluate(scene.tape, c.points.data(), c.count(), c.value.data(), c.gradient.data(), Gradient::autodiff, kOneThread);
+  evaluate(scene.tape, c.points.data(), c.count(), c.value.data(), c.gradient.data(), kOneThread);
   native.gradient(c.points.data(), c.count(), c.native_value.data(), c.native_gradient.data());
   const double tolerance = 2 * scene.tape.slack(2048);
   std::size_t turned = 0;
@@ -75,7 +75,7 @@ void value_case(benchmark::State& state, const NativeScene& native) {
   for (auto _ : state) {
     const auto [ours, theirs] = by_turns(
         vs_native.count(),
-        [&] { evaluate(scene->tape, c.points.data(), c.count(), c.value.data(), nullptr, {}, kOneThread); },
+        [&] { evaluate(scene->tape, c.points.data(), c.count(), c.value.data(), nullptr, kOneThread); },
         [&] { native.value(c.points.data(), c.count(), c.native_value.data()); });
     vs_native.add(theirs / ours);
     native_seconds.add(theirs);
@@ -91,8 +91,7 @@ void gradient_case(benchmark::State& state, const NativeScene& native) {
   Columns c(batch(kPoints));
   if (error = disagreement(*scene, native, c); !error.empty()) return refuse(state, error);
   const auto both = [&] {
-    evaluate(scene->tape, c.points.data(), c.count(), c.value.data(), c.gradient.data(), Gradient::autodiff,
-             kOneThread);
+    evaluate(scene->tape, c.points.data(), c.count(), c.value.data(), c.gradient.data(), kOneThread);
   };
   Samples vs_native, vs_value, native_seconds;
   for (auto _ : state) {
@@ -100,7 +99,7 @@ void gradient_case(benchmark::State& state, const NativeScene& native) {
       native.gradient(c.points.data(), c.count(), c.native_value.data(), c.native_gradient.data());
     });
     const double value =
-        seconds([&] { evaluate(scene->tape, c.points.data(), c.count(), c.value.data(), nullptr, {}, kOneThread); });
+        seconds([&] { evaluate(scene->tape, c.points.data(), c.count(), c.value.data(), nullptr, kOneThread); });
     vs_native.add(theirs / ours);
     vs_value.add(ours / value);
     native_seconds.add(theirs);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The thalweg authors
 // SPDX-License-Identifier: MIT
 //
-// Batches of points.
+// Batches of points. Values and closed-form gradients go through the rows kernel as they are; the other strategies
+// want columns.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,107 +20,155 @@ namespace {
 /// Points per tile.
 constexpr std::size_t kTile = 4096;
 
-struct Rows {
-  const float* points;
-  float* value;
-  float* gradient;
-};
+const Target& target_of(const Execution& execution) {
+  return execution.target == nullptr ? default_target() : *execution.target;
+}
 
 class EvaluateTask final : public TileTask {
  public:
-  EvaluateTask(const Tape& tape, const Rows& rows, Gradient strategy, const Execution& execution)
-      : tape_(tape), rows_(rows), strategy_(strategy), workers_(worker_count(execution)) {
-    target_ = execution.target == nullptr ? &default_target() : execution.target;
+  EvaluateTask(const Tape& tape, const Points& points, const PointColumns& out, const Execution& execution)
+      : tape_(tape), points_(points), out_(out), target_(target_of(execution)), workers_(worker_count(execution)) {
     d_ = static_cast<std::size_t>(tape.dimension);
   }
+
+  void take_gradients_by(const GradientRule& rule) { rule_ = rule; }
 
   void run(std::size_t begin, std::size_t end, std::size_t index) override {
     std::unique_ptr<Worker>& worker = workers_[index];
     if (worker == nullptr) worker = std::make_unique<Worker>();
-    Arena& arena = worker->arena;
-    arena.reset();
-    float* scratch = arena.take<float>(scratch_floats(tape_));
-    if (rows_.gradient == nullptr || strategy_ == Gradient::autodiff) {
-      float* value = rows_.value == nullptr ? nullptr : rows_.value + begin;
-      float* gradient = rows_.gradient == nullptr ? nullptr : rows_.gradient + begin * d_;
-      worker->bad_rows +=
-          target_->kernels->rows(tape_, rows_.points + begin * d_, end - begin, value, gradient, scratch);
-    } else {
-      worker->bad_rows += difference(begin, end - begin, arena, scratch);
-    }
+    worker->arena.reset();
+    worker->summary.rows += end - begin;
+    const bool in_rows = rule_.strategy == Gradient::autodiff || out_.gradient == nullptr;
+    in_rows ? run_rows(begin, end - begin, *worker) : run_columns(begin, end - begin, *worker);
   }
 
-  [[nodiscard]] std::size_t bad_rows() const {
-    std::size_t total = 0;
-    for (const auto& worker : workers_) total += worker == nullptr ? 0 : worker->bad_rows;
+  [[nodiscard]] EvaluateSummary summary() const {
+    EvaluateSummary total;
+    for (const auto& worker : workers_) {
+      if (worker == nullptr) continue;
+      total.rows += worker->summary.rows;
+      total.bad_rows += worker->summary.bad_rows;
+      total.evaluations += worker->summary.evaluations;
+    }
     return total;
   }
 
  private:
   struct Worker {
     Arena arena;
-    std::size_t bad_rows = 0;
+    EvaluateSummary summary;
   };
-
-  /// Strategies that probe around each point want columns.
-  std::size_t difference(std::size_t begin, std::size_t count, Arena& arena, float* scratch) const {
+  struct TileColumns {
     float* points[3] = {};
     float* gradient[3] = {};
-    for (std::size_t axis = 0; axis < d_; ++axis) points[axis] = arena.take<float>(padded(count));
-    for (std::size_t axis = 0; axis < d_; ++axis) gradient[axis] = arena.take<float>(padded(count));
-    float* value = arena.take<float>(padded(count));
-    const std::size_t bad_rows = to_columns(begin, count, points);
-    const GradientColumns columns{points, count, value, gradient};
-    evaluate_gradient(strategy_, tape_, *target_->kernels, columns, {}, scratch, arena);
-    to_rows(begin, count, value, gradient);
-    return bad_rows;
+    float* witness[3] = {};
+    float* value = nullptr;
+    std::uint32_t* evaluations = nullptr;
+  };
+
+  void run_rows(std::size_t begin, std::size_t count, Worker& worker) const {
+    float* scratch = worker.arena.take<float>(scratch_floats(tape_));
+    float* value = out_.value == nullptr ? nullptr : out_.value + begin;
+    float* gradient = out_.gradient == nullptr ? nullptr : out_.gradient + begin * d_;
+    const float* rows = points_.rows + begin * d_;
+    const std::size_t bad_rows = target_.kernels->rows(tape_, rows, count, value, gradient, scratch);
+    worker.summary.bad_rows += bad_rows;
+    worker.summary.evaluations += count - bad_rows;
+    if (out_.evaluations == nullptr) return;
+    for (std::size_t i = 0; i < count; ++i) out_.evaluations[begin + i] = is_bad(begin + i) ? 0 : 1;
+  }
+
+  void run_columns(std::size_t begin, std::size_t count, Worker& worker) const {
+    TileColumns tile = take(count, worker.arena);
+    load(begin, count, tile);
+    const GradientColumns columns{.points = tile.points,
+                                  .count = count,
+                                  .value = out_.value == nullptr ? nullptr : tile.value,
+                                  .gradient = tile.gradient,
+                                  .evaluations = tile.evaluations,
+                                  .witness = out_.witness == nullptr ? nullptr : tile.witness};
+    evaluate_gradient(rule_, tape_, *target_.kernels, columns, worker.arena.take<float>(scratch_floats(tape_)));
+    for (std::size_t i = 0; i < count; ++i) store(begin + i, i, tile, worker.summary);
+  }
+
+  [[nodiscard]] TileColumns take(std::size_t count, Arena& arena) const {
+    TileColumns tile;
+    for (std::size_t axis = 0; axis < d_; ++axis) {
+      tile.points[axis] = arena.take<float>(padded(count));
+      tile.gradient[axis] = arena.take<float>(padded(count));
+      tile.witness[axis] = arena.take<float>(padded(count));
+    }
+    tile.value = arena.take<float>(padded(count));
+    tile.evaluations = arena.take<std::uint32_t>(padded(count));
+    std::fill_n(tile.evaluations, count, 0U);
+    return tile;
   }
 
   [[nodiscard]] bool is_bad(std::size_t row) const {
     for (std::size_t axis = 0; axis < d_; ++axis) {
-      if (!(std::fabs(rows_.points[row * d_ + axis]) <= kLargestCoordinate)) return true;
+      if (!(std::fabs(points_.rows[row * d_ + axis]) <= kLargestCoordinate)) return true;
     }
     return false;
   }
 
-  std::size_t to_columns(std::size_t begin, std::size_t count, float* const* points) const {
-    std::size_t bad_rows = 0;
+  void load(std::size_t begin, std::size_t count, const TileColumns& tile) const {
     for (std::size_t i = 0; i < count; ++i) {
       const bool bad = is_bad(begin + i);
-      bad_rows += bad ? 1 : 0;
       for (std::size_t axis = 0; axis < d_; ++axis) {
-        points[axis][i] = bad ? 0 : rows_.points[(begin + i) * d_ + axis];
+        tile.points[axis][i] = bad ? 0 : points_.rows[(begin + i) * d_ + axis];
       }
     }
-    return bad_rows;
   }
 
-  void to_rows(std::size_t begin, std::size_t count, const float* value, float* const* gradient) const {
+  void store(std::size_t row, std::size_t i, const TileColumns& tile, EvaluateSummary& summary) const {
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-    for (std::size_t i = 0; i < count; ++i) {
-      const bool bad = is_bad(begin + i);
-      if (rows_.value != nullptr) rows_.value[begin + i] = bad ? kNan : value[i];
-      for (std::size_t axis = 0; axis < d_; ++axis) {
-        rows_.gradient[(begin + i) * d_ + axis] = bad ? kNan : gradient[axis][i];
-      }
+    const bool bad = is_bad(row);
+    summary.bad_rows += bad ? 1 : 0;
+    summary.evaluations += bad ? 0 : tile.evaluations[i];
+    if (out_.evaluations != nullptr) out_.evaluations[row] = bad ? 0 : tile.evaluations[i];
+    if (out_.value != nullptr) out_.value[row] = bad ? kNan : tile.value[i];
+    for (std::size_t axis = 0; axis < d_; ++axis) {
+      out_.gradient[row * d_ + axis] = bad ? kNan : tile.gradient[axis][i];
+      if (out_.witness != nullptr) out_.witness[row * d_ + axis] = bad ? kNan : tile.witness[axis][i];
     }
   }
 
   const Tape& tape_;
-  const Rows rows_;
-  const Gradient strategy_;
-  const Target* target_;
+  const Points points_;
+  const PointColumns out_;
+  const Target& target_;
+  GradientRule rule_;
   std::size_t d_ = 2;
   std::vector<std::unique_ptr<Worker>> workers_;
 };
 
+EvaluateSummary run(EvaluateTask& task, std::size_t count, const Execution& execution) {
+  const bool complete = schedule(task, count, execution.tile == 0 ? kTile : execution.tile, execution);
+  EvaluateSummary summary = task.summary();
+  summary.cancelled = !complete;
+  return summary;
+}
+
 }  // namespace
 
 std::size_t evaluate(const Tape& tape, const float* points, std::size_t count, float* value, float* gradient,
-                     Gradient strategy, const Execution& execution) {
-  EvaluateTask task(tape, {points, value, gradient}, strategy, execution);
-  schedule(task, count, execution.tile == 0 ? kTile : execution.tile, execution);
-  return task.bad_rows();
+                     const Execution& execution) {
+  EvaluateTask task(tape, {points, count}, {.value = value, .gradient = gradient}, execution);
+  return run(task, count, execution).bad_rows;
+}
+
+Result<EvaluateSummary> evaluate(const Tape& tape, Points points, const GradientOptions& options,
+                                 const PointColumns& columns, const Execution& execution) {
+  if (auto error = refusal(tape, options.strategy, options.offset)) return *std::move(error);
+  if (columns.witness != nullptr && (options.strategy != Gradient::closest_point || columns.gradient == nullptr)) {
+    return Error{.file = "",
+                 .place = "--gradient",
+                 .expected = "closest_point, which alone gives witnesses, and its gradients",
+                 .found = std::string(name(options.strategy))};
+  }
+  EvaluateTask task(tape, points, columns, execution);
+  task.take_gradients_by(rule_of(tape, options.strategy, options.offset));
+  return run(task, points.count, execution);
 }
 
 }  // namespace thalweg

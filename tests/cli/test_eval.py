@@ -33,7 +33,7 @@ class Eval(CliCase):
     def test_a_gradient_is_a_second_column(self):
         self.succeed(*self.command, "--gradient", "autodiff", "-o", "out.npz")
         result = self.result("out.npz")
-        self.assertEqual(["value", "gradient"], list(result))
+        self.assertEqual(["value", "gradient", "evaluations"], list(result))
         self.assertEqual(("<f4", (4, 2)), (result["gradient"].descr, result["gradient"].shape))
         for (x, y), (gx, gy) in zip(POINTS, result["gradient"].rows(), strict=True):
             self.assertAlmostEqual(x / math.hypot(x, y), gx, delta=1e-5)

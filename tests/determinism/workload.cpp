@@ -155,9 +155,12 @@ std::uint64_t Workload::run(const Execution& execution) const {
 std::uint64_t Workload::run_points(const Execution& execution) const {
   auto value = filled<float>(count_);
   auto gradient = filled<float>(rows_.size());
-  const std::size_t bad = evaluate(tape_, rows_.data(), count_, value.data(), gradient.data(), gradient_, execution);
+  const auto evaluated = evaluate(tape_, Points{rows_.data(), count_}, {.strategy = gradient_},
+                                  {.value = value.data(), .gradient = gradient.data()}, execution);
+  if (!evaluated) throw std::logic_error(to_string(evaluated.error()));
+  const std::size_t bad = evaluated->bad_rows;
   auto alone = filled<float>(count_);
-  evaluate(tape_, rows_.data(), count_, alone.data(), nullptr, gradient_, execution);
+  evaluate(tape_, rows_.data(), count_, alone.data(), nullptr, execution);
   Hash hash;
   hash.add(&bad, sizeof bad);
   hash.add(value), hash.add(gradient), hash.add(alone);

@@ -151,7 +151,9 @@ Command add_collide(CLI::App& app, const Globals& globals) {
            options->collide.method, &parse_method);
   add_word(*command, {"--goal", "verdict (default) or deepest"}, options->collide.goal, &parse_goal);
   CLI::Option* const gradient =
-      add_word(*command, {"--gradient", "Strategy of the local methods"}, options->collide.gradient, &parse_gradient);
+      add_word(*command, {"--gradient", "Strategy of a local method's steps, and of the normals"},
+               options->collide.gradient, &parse_gradient);
+  add_gradient_offset(*command, options->collide.gradient_offset);
   add_integer(*command, {"--starts", "Starts of a local method"}, options->starts, {0, kMost});
   add_integer(*command, {"--iterations", "Iterations of a local method"}, options->iterations, {0, kMost});
   add_positive(*command, {"--tolerance", "Scene units; default 1e-4 of the diagonal of the bounds"},

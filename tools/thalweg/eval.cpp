@@ -22,8 +22,42 @@ namespace {
 
 struct EvalOptions {
   std::string scene, points, output;
-  Gradient strategy = Gradient::autodiff;
+  GradientOptions gradient;
   bool with_gradient = false;
+
+  [[nodiscard]] bool with_witness() const { return with_gradient && gradient.strategy == Gradient::closest_point; }
+};
+
+/// What is written, and the columns of it.
+struct EvalResult {
+  std::vector<float> value, gradient, witness;
+  std::vector<std::uint32_t> evaluations;
+
+  EvalResult(const EvalOptions& options, const Array& points) : value(points.shape[0]) {
+    if (!options.with_gradient) return;
+    gradient.resize(points.values.size());
+    evaluations.resize(value.size());
+    if (options.with_witness()) witness.resize(points.values.size());
+  }
+
+  [[nodiscard]] PointColumns columns() {
+    const auto or_null = [](auto& numbers) { return numbers.empty() ? nullptr : numbers.data(); };
+    return {.value = value.data(),
+            .gradient = or_null(gradient),
+            .witness = or_null(witness),
+            .evaluations = or_null(evaluations)};
+  }
+
+  [[nodiscard]] std::vector<Column> list(const EvalOptions& options, const Array& points) const {
+    const std::size_t count = value.size();
+    std::vector<Column> list = {{"value", Dtype::float32, {count}, value.data()}};
+    if (options.with_gradient) {
+      list.push_back({"gradient", Dtype::float32, points.shape, gradient.data()});
+      if (options.with_witness()) list.push_back({"witness", Dtype::float32, points.shape, witness.data()});
+      list.push_back({"evaluations", Dtype::uint32, {count}, evaluations.data()});
+    }
+    return list;
+  }
 };
 
 ExitCode run_eval(const EvalOptions& options, const Globals& globals) {
@@ -34,31 +68,33 @@ ExitCode run_eval(const EvalOptions& options, const Globals& globals) {
   Output output(options.output);
 
   const std::size_t count = points.shape[0];
-  std::vector<float> value(count);
-  std::vector<float> gradient(options.with_gradient ? points.values.size() : 0);
-  std::vector<Column> columns = {{"value", Dtype::float32, {count}, value.data()}};
-  if (options.with_gradient) columns.push_back({"gradient", Dtype::float32, points.shape, gradient.data()});
-
+  EvalResult result(options, points);
   const Stopwatch watch;
-  std::size_t bad_rows = 0;
+  EvaluateSummary summary;
   {
     Progress progress("eval", count, globals.quiet);
     Execution execution = globals.execution();
     execution.done = progress.done();
-    bad_rows = evaluate(tape, points.values.data(), count, value.data(),
-                        options.with_gradient ? gradient.data() : nullptr, options.strategy, execution);
+    const GradientOptions gradient = options.with_gradient ? options.gradient : GradientOptions();
+    summary = unwrap(evaluate(tape, Points{points.values.data(), count}, gradient, result.columns(), execution),
+                     kCommandLine, "--gradient");
   }
   const double seconds = watch.seconds();
-  write_columns(output, options.output, columns);
+  write_columns(output, options.output, result.list(options, points));
   output.commit();
 
-  Json json = {{"command", "eval"}, {"scene", options.scene}, {"rows", count}, {"bad_rows", bad_rows}};
-  if (options.with_gradient) json["gradient"] = name(options.strategy);
+  Json json = {{"command", "eval"}, {"scene", options.scene}, {"rows", count}, {"bad_rows", summary.bad_rows}};
+  if (options.with_gradient) {
+    json["gradient"] = name(options.gradient.strategy);
+    json["gradient_offset"] = to_string(options.gradient.offset);
+  }
+  json["evaluations"] = summary.evaluations;
   add_run(json, globals, count, seconds);
   json["output"] = options.output;
   Sheet sheet;
   sheet.add("points", grouped(count));
-  sheet.add("bad rows", grouped(bad_rows));
+  sheet.add("bad rows", grouped(summary.bad_rows));
+  sheet.add("evaluations", grouped(summary.evaluations));
   sheet.add("elapsed", run_text(globals, count, seconds, "points"));
   print_report(globals, output.is_stdout(), json, sheet.text());
   return ExitCode::done;
@@ -72,9 +108,10 @@ Command add_eval(CLI::App& app, const Globals& globals) {
   command->add_option("SCENE", options->scene, "Scene file, or - for stdin")->required();
   command->add_option("--points", options->points, "Points (N,d): .npy, .csv, or - for stdin")->required();
   add_output(*command, options->output, ".npz, .npy for `value` alone, or - for stdout");
-  CLI::Option* const gradient =
-      add_word(*command, {"--gradient", "Also `gradient`, by this strategy"}, options->strategy, &parse_gradient);
+  CLI::Option* const gradient = add_word(*command, {"--gradient", "Also `gradient`, by this strategy"},
+                                         options->gradient.strategy, &parse_gradient);
   gradient->type_name("STRATEGY");
+  add_gradient_offset(*command, options->gradient.offset)->needs(gradient);
   return {command, [options, gradient, &globals] {
             options->with_gradient = gradient->count() > 0;
             return run_eval(*options, globals);

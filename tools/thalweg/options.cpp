@@ -71,6 +71,16 @@ CLI::Option* add_output(CLI::App& app, std::string& target, const std::string& m
   return app.add_option("-o,--output", target, meaning)->required()->type_name("OUT");
 }
 
+CLI::Option* add_gradient_offset(CLI::App& app, ProbeOffset& target) {
+  return add_word(
+             app,
+             {"--gradient-offset",
+              "How far differences probe: X, f:X (times |f|), scene:X (times the scene's diagonal), or the greatest "
+              "of several: 0.005,f:0.00025 (default)"},
+             target, &parse_probe_offset)
+      ->type_name("O");
+}
+
 void add_unsupported(CLI::App& app, const OptionText& text) {
   const auto stop = [place = text.place()](const std::string& word) {
     refuse(kCommandLine, place, "an option of this version", in_quotes(word) + ", which is not supported yet");

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "failure.h"
+#include "thalweg/query.h"
 #include "thalweg/result.h"
 
 namespace thalweg::cli {
@@ -51,6 +52,9 @@ CLI::Option* add_word(CLI::App& app, const OptionText& text, T& target, Result<T
 }
 /// `-o,--output`, required.
 CLI::Option* add_output(CLI::App& app, std::string& target, const std::string& meaning);
+
+/// `--gradient-offset`: how far the strategies that take differences probe.
+CLI::Option* add_gradient_offset(CLI::App& app, ProbeOffset& target);
 
 /// An option of the contract that is refused until it exists.
 void add_unsupported(CLI::App& app, const OptionText& text);

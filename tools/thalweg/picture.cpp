@@ -168,7 +168,7 @@ Canvas draw_field(const Tape& tape, const View& view, PictureStyle style, const 
     samples.value.resize(count);
     if (style.mode == PictureMode::gradient) samples.gradient.resize(count * dimension);
     evaluate(tape, samples.points.data(), count, samples.value.data(),
-             samples.gradient.empty() ? nullptr : samples.gradient.data(), Gradient::autodiff, execution);
+             samples.gradient.empty() ? nullptr : samples.gradient.data(), execution);
     for (std::size_t i = 0; i < rows * view.width; ++i) {
       const auto value = std::span<const float>(samples.value).subspan(i * kSamples, kSamples);
       std::span<const float> gradient = samples.gradient;

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "thalweg/result.h"
@@ -28,8 +29,25 @@ enum class Method : std::uint8_t {
 };
 enum class Goal : std::uint8_t { verdict, deepest };
 
-/// How a gradient is had; see core/docs/gradients.md.
-enum class Gradient : std::uint8_t { autodiff, central, forward, simplex, dichotomy, dichotomy_verbatim };
+/// How a gradient is had; see core/docs/gradients.md. The dichotomies exist in 2D only.
+enum class Gradient : std::uint8_t {
+  autodiff,
+  central,
+  forward,
+  simplex,
+  dichotomy,
+  dichotomy_verbatim,
+  closest_point
+};
+
+/// How far from the point the strategies that take differences probe f: o is the greatest of the three. The default is
+/// the rule of Luneau (2025), section 2.3, which was made for scenes in pixels. Nothing keeps o above the spacing of
+/// float32 numbers: where P + o is P the difference, and with it the gradient, is zero.
+struct ProbeOffset {
+  double absolute = 0.005;       ///< scene units; `dichotomy:verbatim` takes this part alone
+  double of_value = 0.005 / 20;  ///< times |f|
+  double of_scene = 0;           ///< times the diagonal of the scene's bounds, which must be finite
+};
 
 [[nodiscard]] std::string_view name(Status status);
 [[nodiscard]] std::string_view name(Method method);
@@ -38,16 +56,33 @@ enum class Gradient : std::uint8_t { autodiff, central, forward, simplex, dichot
 [[nodiscard]] Result<Method> parse_method(std::string_view text);
 [[nodiscard]] Result<Goal> parse_goal(std::string_view text);
 [[nodiscard]] Result<Gradient> parse_gradient(std::string_view text);
+/// `0.005`, `f:0.00025`, `scene:1e-6`, or several of them with commas between; what is not named is 0.
+[[nodiscard]] Result<ProbeOffset> parse_probe_offset(std::string_view text);
+[[nodiscard]] std::string to_string(const ProbeOffset& offset);
+
+struct GradientOptions {
+  Gradient strategy = Gradient::autodiff;
+  ProbeOffset offset;
+};
+
+/// Columns of a batch of points, N rows each; a null column is not computed. Vectors are (N,d) in C order.
+struct PointColumns {
+  float* value = nullptr;     ///< f
+  float* gradient = nullptr;  ///< of length 1 or, where differences vanish, 0; `autodiff` leaves the length of grad f
+  float* witness = nullptr;   ///< `closest_point`: a point of the surface, the nearest found
+  std::uint32_t* evaluations = nullptr;  ///< of f, the one for `value` among them
+};
 
 struct CollideOptions {
   Method method = Method::certified;
   Goal goal = Goal::verdict;
-  Gradient gradient = Gradient::autodiff;  ///< of the local methods; `thesis` as published: dichotomy_verbatim
-  bool gradient_given = false;             ///< false: each method takes its own default strategy
-  std::uint32_t starts = 0;                ///< 0: the method's own
-  std::uint32_t iterations = 0;            ///< 0: the method's own
-  double tolerance = 0;                    ///< scene units; 0: 1e-4 of the bounds' diagonal, or 1e-4
-  std::uint32_t budget = 4096;             ///< evaluations per query
+  Gradient gradient = Gradient::autodiff;  ///< of the steps of local methods, and of the normals
+  bool gradient_given = false;  ///< false: each method its own (`thesis`: dichotomy_verbatim), normals autodiff
+  ProbeOffset gradient_offset;
+  std::uint32_t starts = 0;      ///< 0: the method's own
+  std::uint32_t iterations = 0;  ///< 0: the method's own
+  double tolerance = 0;          ///< scene units; 0: 1e-4 of the bounds' diagonal, or 1e-4
+  std::uint32_t budget = 4096;   ///< evaluations per query
 };
 
 /// Triangles or circles (2D) / spheres (3D), as rows in C order.

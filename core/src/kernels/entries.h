@@ -12,6 +12,7 @@ namespace thalweg {
 
 [[nodiscard]] ValueKernel value_entry(std::int64_t target);
 [[nodiscard]] GradientKernel gradient_entry(std::int64_t target);
+[[nodiscard]] StrategyKernel strategy_entry(std::int64_t target);
 [[nodiscard]] RowsKernel rows_entry(std::int64_t target);
 [[nodiscard]] EnclosureKernel enclosure_entry(std::int64_t target);
 [[nodiscard]] FinishKernel finish_entry(std::int64_t target);

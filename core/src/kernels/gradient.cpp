@@ -24,7 +24,7 @@ void gradient_of(const Tape& tape, const float* const* points, size_t count, flo
     for (int axis = 0; axis < D; ++axis)
       store(Make<T>::load(points[axis] + i), m.positions + static_cast<size_t>(axis) * lanes);
     const Field<T, D> f = run(GradientMode<T, D>{}, m);
-    store(f.value, value + i);
+    if (value != nullptr) store(f.value, value + i);
     store(f.gradient.x, gradient[0] + i);
     store(f.gradient.y, gradient[1] + i);
     if constexpr (D == 3) store(f.gradient.z, gradient[2] + i);

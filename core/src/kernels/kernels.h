@@ -36,6 +36,16 @@ struct CellColumns {
   bool is_box = false;
 };
 
+/// Columns of points and where their gradients go; all padded.
+struct GradientColumns {
+  const float* const* points = nullptr;
+  std::size_t count = 0;
+  float* value = nullptr;  ///< f at the points; may be null
+  float* const* gradient = nullptr;
+  std::uint32_t* evaluations = nullptr;  ///< each point's are added; may be null
+  float* const* witness = nullptr;       ///< `closest_point` only: a surface point, the nearest found; may be null
+};
+
 /// Floats of scratch that any of the evaluating kernels needs for a tape; align it to 64 bytes.
 [[nodiscard]] constexpr std::size_t scratch_floats(const Tape& tape) {
   const auto registers = static_cast<std::size_t>(tape.register_count);
@@ -46,11 +56,16 @@ struct CellColumns {
 
 using ValueKernel = void (*)(const Tape& tape, const float* const* points, std::size_t count, float* value,
                              float* scratch);
+/// `value` may be null.
 using GradientKernel = void (*)(const Tape& tape, const float* const* points, std::size_t count, float* value,
                                 float* const* gradient, float* scratch);
 /// Row-major points (N,d); `gradient` (N,d) may be null. Rows that cannot be answered give NaN; returns how many.
 using RowsKernel = std::size_t (*)(const Tape& tape, const float* points, std::size_t count, float* value,
                                    float* gradient, float* scratch);
+struct GradientRule;
+/// Gradients by any strategy but `autodiff` (gradient/strategies.h).
+using StrategyKernel = void (*)(const Tape& tape, const GradientRule& rule, const GradientColumns& columns,
+                                float* scratch);
 using EnclosureKernel = void (*)(const Tape& tape, const float* const* centres, const CellColumns& cells,
                                  std::size_t count, float* lower, float* value, float* scratch);
 
@@ -68,6 +83,7 @@ using CircleSolver = void (*)(const CircleTile& tile, TileScratch& scratch);
 struct Kernels {
   ValueKernel value = nullptr;
   GradientKernel gradient = nullptr;
+  StrategyKernel strategy = nullptr;
   RowsKernel rows = nullptr;
   EnclosureKernel enclosure = nullptr;
   FinishKernel finish = nullptr;

@@ -33,6 +33,7 @@ TargetList make_targets() {
     const std::int64_t target = left & -left;
     list.kernels.push_back({.value = value_entry(target),
                             .gradient = gradient_entry(target),
+                            .strategy = strategy_entry(target),
                             .rows = rows_entry(target),
                             .enclosure = enclosure_entry(target),
                             .finish = finish_entry(target),

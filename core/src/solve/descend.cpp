@@ -27,6 +27,7 @@ struct Lanes {
   float* points[3] = {};
   float* value = nullptr;
   float* gradient[3] = {};
+  std::uint32_t* evaluations = nullptr;  ///< of this iteration
   std::size_t count = 0;
 
   void take(Arena& arena, std::size_t room, int dimension) {
@@ -34,6 +35,7 @@ struct Lanes {
     at = arena.take<Barycentric>(padded(room));
     step = arena.take<float>(padded(room));
     value = arena.take<float>(padded(room));
+    evaluations = arena.take<std::uint32_t>(padded(room));
     for (int axis = 0; axis < dimension; ++axis) {
       points[axis] = arena.take<float>(padded(room));
       gradient[axis] = arena.take<float>(padded(room));
@@ -43,8 +45,7 @@ struct Lanes {
 
 class Descent {
  public:
-  Descent(const TriangleTile& tile, TileScratch& scratch)
-      : tile_(tile), limits_(*tile.limits), arena_(scratch.arena), probes_(scratch.probes) {
+  Descent(const TriangleTile& tile, TileScratch& scratch) : tile_(tile), limits_(*tile.limits), arena_(scratch.arena) {
     arena_.reset();
     dimension_ = static_cast<std::size_t>(tile.tape->dimension);
     state_ = QueryState::make(arena_, tile.tape->dimension, tile.count);
@@ -155,16 +156,20 @@ class Descent {
   // ----------------------------------------------------------------------------------------------------------
 
   void iterate() {
-    const GradientColumns columns{lanes_.points, lanes_.count, lanes_.value, lanes_.gradient};
-    probes_.reset();
-    evaluate_gradient(limits_.gradient, *tile_.tape, *tile_.kernels, columns, {}, kernel_scratch_, probes_);
     const bool thesis = limits_.method == Method::thesis;
+    std::fill_n(lanes_.evaluations, lanes_.count, 0U);
+    const GradientColumns columns{.points = lanes_.points,
+                                  .count = lanes_.count,
+                                  .value = thesis ? lanes_.value : nullptr,
+                                  .gradient = lanes_.gradient,
+                                  .evaluations = lanes_.evaluations};
+    evaluate_gradient(limits_.gradient, *tile_.tape, *tile_.kernels, columns, kernel_scratch_);
     // The published descent evaluates f once more for its step.
-    const std::uint32_t cost = evaluations_of(limits_.gradient, tile_.tape->dimension) + (thesis ? 1 : 0);
+    const std::uint32_t more = thesis ? 1 : 0;
     std::size_t kept = 0;
     for (std::size_t lane = 0; lane < lanes_.count; ++lane) {
       const std::uint32_t q = lanes_.query[lane];
-      state_.evaluations[q] += cost;
+      state_.evaluations[q] += lanes_.evaluations[lane] + more;
       ++state_.iterations[q];
       const bool stops = thesis ? step_as_published(lane) : step_in_barycentrics(lane);
       locate(lane);
@@ -255,7 +260,6 @@ class Descent {
   const TriangleTile& tile_;
   const SolveLimits& limits_;
   Arena& arena_;
-  Arena& probes_;
   std::size_t dimension_ = 2;
   QueryState state_;
   Lanes lanes_;

@@ -11,6 +11,7 @@
 
 #include <limits>
 
+#include "gradient/strategies.h"
 #include "kernels/rows.inl"
 #include "solve/finish.h"
 #include "solve/tile.h"
@@ -153,7 +154,10 @@ void write_normals(const QueryTile& tile, const QueryState& s, float* scratch, A
   float* value = arena.take<float>(padded(tile.count));
   float* gradient[3] = {};
   for (int axis = 0; axis < D; ++axis) gradient[axis] = arena.take<float>(padded(tile.count));
-  tile.kernels->gradient(*tile.tape, s.point, tile.count, value, gradient, scratch);
+  GradientColumns columns{.points = s.point, .count = tile.count, .value = value, .gradient = gradient};
+  // Closed forms come with one more pass; what is probed for, or searched, is counted.
+  if (tile.limits->normals.strategy != Gradient::autodiff) columns.evaluations = s.evaluations;
+  evaluate_gradient(tile.limits->normals, *tile.tape, *tile.kernels, columns, scratch);
   const P nan = Make<P>::set(std::numeric_limits<float>::quiet_NaN());
   for_each_vector(tile.count, [&](size_t i, size_t count) HWY_ATTR {
     Point<P, D> g;
@@ -183,11 +187,12 @@ void finish_kernel(const QueryTile& tile, const QueryState& state, float* scratc
   const CollideColumns& out = tile.columns;
   if (out.status != nullptr) write_statuses(tile, state);
   if (out.converged != nullptr || out.claimed != nullptr) write_flags(tile, state);
-  write_counts(tile, state);
   const bool flat = tile.tape->dimension == 2;
   flat ? write_values<2>(tile, state) : write_values<3>(tile, state);
-  if (out.normal == nullptr && out.ambiguous == nullptr) return;
-  flat ? write_normals<2>(tile, state, scratch, arena) : write_normals<3>(tile, state, scratch, arena);
+  if (out.normal != nullptr || out.ambiguous != nullptr) {
+    flat ? write_normals<2>(tile, state, scratch, arena) : write_normals<3>(tile, state, scratch, arena);
+  }
+  write_counts(tile, state);
 }
 
 }  // namespace HWY_NAMESPACE

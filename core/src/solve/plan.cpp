@@ -22,10 +22,13 @@ constexpr std::array kMethods = {Word{"certified", Method::certified}, Word{"the
                                  Word{"projected", Method::projected}, Word{"descent", Method::projected},
                                  Word{"published", Method::published}};
 constexpr std::array kGoals = {Word{"verdict", Goal::verdict}, Word{"deepest", Goal::deepest}};
-constexpr std::array kGradients = {
-    Word{"autodiff", Gradient::autodiff},   Word{"central", Gradient::central},
-    Word{"forward", Gradient::forward},     Word{"simplex", Gradient::simplex},
-    Word{"dichotomy", Gradient::dichotomy}, Word{"dichotomy:verbatim", Gradient::dichotomy_verbatim}};
+constexpr std::array kGradients = {Word{"autodiff", Gradient::autodiff},
+                                   Word{"central", Gradient::central},
+                                   Word{"forward", Gradient::forward},
+                                   Word{"simplex", Gradient::simplex},
+                                   Word{"dichotomy", Gradient::dichotomy},
+                                   Word{"dichotomy:verbatim", Gradient::dichotomy_verbatim},
+                                   Word{"closest_point", Gradient::closest_point}};
 
 template <class Words>
 std::string list(const Words& words) {
@@ -118,17 +121,16 @@ Result<SolveLimits> plan(const Tape& tape, QueryKind kind, const CollideOptions&
   SolveLimits limits;
   limits.goal = options.goal;
   limits.method = options.method;
-  limits.gradient = options.gradient_given ? options.gradient : defaults.gradient;
+  const Gradient strategy = options.gradient_given ? options.gradient : defaults.gradient;
+  if (auto error = refusal(tape, strategy, options.gradient_offset)) return *std::move(error);
+  limits.gradient = rule_of(tape, strategy, options.gradient_offset);
+  if (options.gradient_given) limits.normals = limits.gradient;
   limits.starts = options.starts == 0 ? defaults.starts : options.starts;
   limits.iterations = options.iterations == 0 ? defaults.iterations : options.iterations;
   limits.budget = options.budget;
   limits.tolerance = options.tolerance > 0 ? options.tolerance : default_tolerance(tape);
   limits.slack = tape.search_slack;
   limits.slack64 = {.a = limits.slack.a * Twin::kSlackRatio, .b = limits.slack.b * Twin::kSlackRatio};
-  const bool dichotomy = limits.gradient == Gradient::dichotomy || limits.gradient == Gradient::dichotomy_verbatim;
-  if (options.method != Method::certified && dichotomy && tape.dimension != 2) {
-    return refused("--gradient", "a strategy for 3D: autodiff, central, forward, simplex", name(limits.gradient));
-  }
   return limits;
 }
 

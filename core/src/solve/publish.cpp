@@ -26,7 +26,12 @@ class Publisher {
 
   void run() {
     for (std::size_t q = 0; q < tile_.count; ++q) begin(q);
-    tile_.kernels->gradient(*tile_.tape, state_.point, tile_.count, value_, gradient_, kernel_scratch_);
+    const GradientColumns columns{.points = state_.point,
+                                  .count = tile_.count,
+                                  .value = value_,
+                                  .gradient = gradient_,
+                                  .evaluations = state_.evaluations};
+    evaluate_gradient(tile_.limits->gradient, *tile_.tape, *tile_.kernels, columns, kernel_scratch_);
     for (std::size_t q = 0; q < tile_.count; ++q) move_to_deepest(q);
     tile_.kernels->value(*tile_.tape, state_.point, tile_.count, state_.value, kernel_scratch_);
     for (std::size_t q = 0; q < tile_.count; ++q) conclude(q);
@@ -49,6 +54,7 @@ class Publisher {
       if (i < d_) largest = std::max(largest, std::fabs(row(q)[i]));
     }
     state_.is_bad[q] = bad ? 1 : 0;
+    state_.evaluations[q] = 0;
     for (std::size_t axis = 0; axis < d_; ++axis) state_.point[axis][q] = bad ? 0 : row(q)[axis];
     const double reach = bad ? 0 : static_cast<double>(largest) + static_cast<double>(radius(q));
     state_.slack[q] = static_cast<float>(tile_.limits->slack(reach) * (1 + 1e-6));
@@ -75,7 +81,7 @@ class Publisher {
     const bool decided = state_.lower[q] > 0 || state_.witness[q] != 0;
     const bool bracketed = state_.value[q] - state_.lower[q] <= static_cast<float>(tile_.limits->tolerance);
     state_.converged[q] = decided && (tile_.limits->goal == Goal::verdict || bracketed) ? 1 : 0;
-    state_.evaluations[q] = 2;
+    ++state_.evaluations[q];
     state_.iterations[q] = 1;
     state_.barycentric[0][q] = state_.barycentric[1][q] = 0;
   }

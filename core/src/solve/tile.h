@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "gradient/strategies.h"
 #include "kernels/kernels.h"
 #include "kernels/twin.h"
 #include "solve/arena.h"
@@ -17,7 +18,8 @@ namespace thalweg {
 struct SolveLimits {
   Goal goal = Goal::verdict;
   Method method = Method::certified;
-  Gradient gradient = Gradient::autodiff;
+  GradientRule gradient;  ///< of the steps of a local method
+  GradientRule normals;   ///< of the normal of the final point
   std::uint32_t starts = 1;
   std::uint32_t iterations = 1;
   std::uint32_t budget = 4096;
@@ -49,7 +51,6 @@ struct WaitingCell {
 struct TileScratch {
   explicit TileScratch(const Tape& tape) : twin(tape) {}
   Arena arena;
-  Arena probes;  ///< of one gradient evaluation
   Twin twin;
   std::vector<WaitingCell> waiting;  ///< cells that the current wave cannot hold
   struct HeapCell {

@@ -32,10 +32,27 @@ struct Summary {
   bool cancelled = false;
 };
 
-/// f at N points, rows (N,d) in C order; `gradient` (N,d) and `value` (N) may be null. A bad row gives NaN.
-/// Returns how many rows were bad.
+/// f at N points, rows (N,d) in C order, and its gradient by `autodiff`; `gradient` (N,d) and `value` (N) may be null.
+/// A bad row gives NaN. Returns how many rows were bad.
 std::size_t evaluate(const Tape& tape, const float* points, std::size_t count, float* value, float* gradient,
-                     Gradient strategy = Gradient::autodiff, const Execution& execution = {});
+                     const Execution& execution = {});
+
+/// Points (N,d) in C order.
+struct Points {
+  const float* rows = nullptr;
+  std::size_t count = 0;
+};
+
+struct EvaluateSummary {
+  std::size_t rows = 0, bad_rows = 0;
+  std::uint64_t evaluations = 0;
+  bool cancelled = false;
+};
+
+/// f and its gradient by any strategy. A bad row gives NaN and 0 evaluations. Refuses a strategy or an offset that the
+/// tape does not allow.
+[[nodiscard]] Result<EvaluateSummary> evaluate(const Tape& tape, Points points, const GradientOptions& options,
+                                               const PointColumns& columns, const Execution& execution = {});
 
 /// Triangles against the tape's shape. Refuses options that the method or the tape cannot honour.
 [[nodiscard]] Result<Summary> collide_triangles(const Tape& tape, Queries triangles, const CollideOptions& options,

@@ -8,14 +8,16 @@
 #include <vector>
 
 #include "random.h"
+#include "solve/arena.h"
 #include "thalweg/ops.h"
 #include "thalweg/simd.h"
 
 namespace thalweg {
 namespace {
 
-constexpr Gradient kAll[] = {Gradient::autodiff, Gradient::central,   Gradient::forward,
-                             Gradient::simplex,  Gradient::dichotomy, Gradient::dichotomy_verbatim};
+constexpr Gradient kAll[] = {Gradient::autodiff,     Gradient::central,   Gradient::forward,
+                             Gradient::simplex,      Gradient::dichotomy, Gradient::dichotomy_verbatim,
+                             Gradient::closest_point};
 
 struct Point {
   float x, y, z;
@@ -32,8 +34,9 @@ std::vector<Answer> ask(const Shape& shape, Gradient strategy, const std::vector
   float* gradient[3] = {arena.take<float>(room), arena.take<float>(room), arena.take<float>(room)};
   float* value = arena.take<float>(room);
   for (std::size_t i = 0; i < at.size(); ++i) points[0][i] = at[i].x, points[1][i] = at[i].y, points[2][i] = at[i].z;
-  evaluate_gradient(strategy, tape, *default_target().kernels, {points, at.size(), value, gradient}, offset,
-                    arena.take<float>(scratch_floats(tape)), arena);
+  evaluate_gradient(rule_of(tape, strategy, offset), tape, *default_target().kernels,
+                    {.points = points, .count = at.size(), .value = value, .gradient = gradient},
+                    arena.take<float>(scratch_floats(tape)));
   std::vector<Answer> answers;
   for (std::size_t i = 0; i < at.size(); ++i) {
     answers.push_back({value[i], {gradient[0][i], gradient[1][i], tape.dimension == 3 ? gradient[2][i] : 0}});
@@ -81,7 +84,7 @@ TEST(Dichotomy, TurnsWithTheGradientAllTheWayRound) {
     at.push_back({7 * std::cos(angle), 7 * std::sin(angle), 0});
   }
   for (const Gradient strategy : {Gradient::dichotomy, Gradient::dichotomy_verbatim}) {
-    const auto answers = ask(circle(5), strategy, at, {.absolute = 0.5F, .relative = 0});
+    const auto answers = ask(circle(5), strategy, at, {.absolute = 0.5, .of_value = 0});
     for (std::size_t i = 0; i < at.size(); ++i) {
       const float along = (answers[i].gradient[0] * at[i].x + answers[i].gradient[1] * at[i].y) / 7;
       // A third of a turn halved eight times.
@@ -101,19 +104,29 @@ TEST(Differences, GiveZeroAtTheCentreOfACircle) {
 TEST(ProbeOffset, GrowsWithTheFieldWhereItIsRelative) {
   // Over a kink at distance 1: a small offset sees one face of the box, a large one its corner.
   const std::vector<Point> at = {{4, 1.9F, 0}};
-  const auto close = ask(box(Vec2{2, 2}), Gradient::central, at, {.absolute = 0.001F, .relative = 0}).front();
-  const auto wide = ask(box(Vec2{2, 2}), Gradient::central, at, {.absolute = 0.001F, .relative = 0.5F}).front();
+  const auto close = ask(box(Vec2{2, 2}), Gradient::central, at, {.absolute = 0.001, .of_value = 0}).front();
+  const auto wide = ask(box(Vec2{2, 2}), Gradient::central, at, {.absolute = 0.001, .of_value = 0.5}).front();
   EXPECT_NEAR(close.gradient[1], 0, 1e-3);
   EXPECT_GT(wide.gradient[1], 0.05F);
 }
 
 TEST(EvaluationsOfAGradient, AreThoseOfTheTable) {
-  const std::pair<Gradient, std::uint32_t> flat[] = {{Gradient::autodiff, 1},   {Gradient::central, 4},
-                                                     {Gradient::forward, 3},    {Gradient::simplex, 3},
-                                                     {Gradient::dichotomy, 12}, {Gradient::dichotomy_verbatim, 12}};
-  for (const auto& [strategy, count] : flat) EXPECT_EQ(evaluations_of(strategy, 2), count) << name(strategy);
-  EXPECT_EQ(evaluations_of(Gradient::central, 3), 6U);
-  EXPECT_EQ(evaluations_of(Gradient::forward, 3), 4U);
+  const Tape flat = std::move(compile(circle(1))).value();
+  const Tape solid = std::move(compile(sphere(1))).value();
+  const ProbeOffset fixed{.absolute = 0.01, .of_value = 0};
+  const std::pair<Gradient, std::uint32_t> counts[] = {{Gradient::autodiff, 1},     {Gradient::central, 4},
+                                                       {Gradient::forward, 3},      {Gradient::simplex, 3},
+                                                       {Gradient::dichotomy, 12},   {Gradient::dichotomy_verbatim, 12},
+                                                       {Gradient::closest_point, 1}};
+  for (const auto& [strategy, count] : counts) {
+    EXPECT_EQ(evaluations_of(rule_of(flat, strategy, fixed), 2, false), count) << name(strategy);
+  }
+  EXPECT_EQ(evaluations_of(rule_of(solid, Gradient::central, fixed), 3, false), 6U);
+  EXPECT_EQ(evaluations_of(rule_of(solid, Gradient::simplex, fixed), 3, false), 4U);
+  // The one at the point: where the caller wants it, or an offset relative to it.
+  EXPECT_EQ(evaluations_of(rule_of(flat, Gradient::central, fixed), 2, true), 5U);
+  EXPECT_EQ(evaluations_of(rule_of(flat, Gradient::central, {}), 2, false), 5U);
+  EXPECT_EQ(evaluations_of(rule_of(flat, Gradient::forward, {}), 2, true), 3U);
 }
 
 }  // namespace

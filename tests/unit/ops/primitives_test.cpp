@@ -28,7 +28,7 @@ void expect_value(const Shape& shape, Vec2 at, double expected) {
   const float p[2] = {static_cast<float>(at.x), static_cast<float>(at.y)};
   for (const Target& target : targets()) {
     float value = 0;
-    evaluate(tape, p, 1, &value, nullptr, Gradient::autodiff, {.threads = 1, .target = &target});
+    evaluate(tape, p, 1, &value, nullptr, {.threads = 1, .target = &target});
     EXPECT_NEAR(value, expected, tape.slack(std::max(std::fabs(at.x), std::fabs(at.y)))) << target.name;
   }
 }
@@ -64,7 +64,7 @@ TEST(Circle, HasNoGradientAboveOneNextToItsCentre) {
     const float p[2] = {static_cast<float>(r), 0};
     for (const Target& target : targets()) {
       float gradient[2] = {};
-      evaluate(tape, p, 1, nullptr, gradient, Gradient::autodiff, {.threads = 1, .target = &target});
+      evaluate(tape, p, 1, nullptr, gradient, {.threads = 1, .target = &target});
       EXPECT_LE(std::hypot(gradient[0], gradient[1]), 1.00001F) << r << ' ' << target.name;
     }
   }

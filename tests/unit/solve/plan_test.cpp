@@ -30,15 +30,15 @@ TEST(Plan, FillsInWhatEachMethodTakes) {
     return *plan(flat(), kind, options);
   };
   const SolveLimits certified = plan_of(Method::certified, QueryKind::triangles);
-  EXPECT_EQ(certified.gradient, Gradient::autodiff);
+  EXPECT_EQ(certified.gradient.strategy, Gradient::autodiff);
   EXPECT_EQ(certified.budget, 4096U);
   const SolveLimits thesis = plan_of(Method::thesis, QueryKind::triangles);
-  EXPECT_EQ(thesis.gradient, Gradient::dichotomy_verbatim);
+  EXPECT_EQ(thesis.gradient.strategy, Gradient::dichotomy_verbatim);
   EXPECT_EQ(thesis.iterations, 64U);
   EXPECT_EQ(thesis.starts, 1U);
   const SolveLimits projected = plan_of(Method::projected, QueryKind::triangles);
   EXPECT_EQ(projected.iterations, 16U);
-  EXPECT_EQ(projected.gradient, Gradient::autodiff);
+  EXPECT_EQ(projected.gradient.strategy, Gradient::autodiff);
 }
 
 TEST(Plan, KeepsWhatTheCallerSays) {
@@ -47,7 +47,7 @@ TEST(Plan, KeepsWhatTheCallerSays) {
   options.gradient = Gradient::simplex, options.gradient_given = true;
   options.starts = 5, options.iterations = 9, options.budget = 77, options.tolerance = 0.25;
   const SolveLimits limits = *plan(solid(), QueryKind::triangles, options);
-  EXPECT_EQ(limits.gradient, Gradient::simplex);
+  EXPECT_EQ(limits.gradient.strategy, Gradient::simplex);
   EXPECT_EQ(limits.starts, 5U);
   EXPECT_EQ(limits.iterations, 9U);
   EXPECT_EQ(limits.budget, 77U);
