@@ -57,6 +57,68 @@ class CollideCase(CliCase):
         self.assertEqual(expected, {name: (array.descr, array.shape) for name, array in result.items()})
 
 
+STRATEGIES = ("autodiff", "central", "forward", "simplex", "dichotomy", "dichotomy:verbatim", "closest_point")
+
+
+class Strategies(CollideCase):
+    """`--gradient` with each method: the steps of a descent, and the normals of all."""
+
+    COST = dict(zip(STRATEGIES, (1, 5, 3, 4, 12, 12, 1), strict=True))  # with |f| for the offset
+
+    def assert_normals_point_out_of_the_circle(self, result: dict[str, arrays.Array]) -> None:
+        for (x, y), (nx, ny) in zip(result["point"].rows(), result["normal"].rows(), strict=True):
+            self.assertAlmostEqual(x / math.hypot(x, y), nx, delta=2e-2)
+            self.assertAlmostEqual(y / math.hypot(x, y), ny, delta=2e-2)
+
+    def test_give_the_normals_of_proven_verdicts_and_are_counted(self):
+        self.save_triangles([(1, 0, 4, -1, 4, 1), (2.5, -4, 2.5, 4, 3, 0), (0.3, 0.4, 1, 2, 2, 2)])
+        plain = self.collide("--triangles", "triangles.npy")
+        for strategy in STRATEGIES:
+            with self.subTest(strategy=strategy):
+                result = self.collide("--triangles", "triangles.npy", "--gradient", strategy)
+                self.assert_normals_point_out_of_the_circle(result)
+                self.assertEqual(plain["status"].numbers, result["status"].numbers)
+                more = 0 if strategy == "autodiff" else self.COST[strategy]
+                self.assertEqual([n + more for n in plain["evaluations"].numbers], list(result["evaluations"].numbers))
+
+    def test_step_every_descent_and_are_counted(self):
+        self.save_triangles([(1, 0, 4, -1, 4, 1), (3, 0, 4, -1, 4, 1)])
+        for method in ("thesis", "projected"):
+            for strategy in STRATEGIES:
+                with self.subTest(method=method, strategy=strategy):
+                    triangles = ("--triangles", "triangles.npy", "--method", method, "--gradient", strategy)
+                    result = self.collide(*triangles, "--iterations", "7", "--starts", "2")
+                    self.assertEqual([1, 0], list(result["claimed"].numbers))
+                    self.assert_normals_point_out_of_the_circle(result)
+                    # The thesis' step has an evaluation of its own.
+                    step = self.COST[strategy] + (1 if method == "thesis" else 0)
+                    normal = 0 if strategy == "autodiff" else self.COST[strategy]
+                    for found, iterations in zip(
+                        result["evaluations"].numbers, result["iterations"].numbers, strict=True
+                    ):
+                        self.assertEqual(iterations * step + normal, found)
+
+    def test_find_the_deepest_point_of_a_disc_as_published(self):
+        self.save("circles.npy", [3, 0, 1.5, 0, -5, 1], (2, 3))
+        for strategy in STRATEGIES:
+            with self.subTest(strategy=strategy):
+                result = self.collide("--circles", "circles.npy", "--method", "published", "--gradient", strategy)
+                self.assertEqual([1, 0], list(result["claimed"].numbers))
+                self.assertAlmostEqual(1.5, result["point"].numbers[0], delta=1e-2)
+                self.assert_normals_point_out_of_the_circle(result)
+                normal = 0 if strategy == "autodiff" else self.COST[strategy]
+                cost = self.COST[strategy] + 1 + normal
+                self.assertEqual([cost] * 2, list(result["evaluations"].numbers))
+
+    def test_are_refused_where_they_do_not_exist(self):
+        self.save_triangles([(0, 0, 0, 1, 0, 0, 0, 1, 0)], dimension=3)
+        self.save("spheres.npy", [0, 0, 0, 1], (1, 4))
+        for queries in (("--triangles", "triangles.npy"), ("--circles", "spheres.npy")):
+            for strategy in ("dichotomy", "dichotomy:verbatim"):
+                line = self.refuse("collide", "sphere.json", *queries, "--gradient", strategy, "-o", "out.npz")
+                self.assertIn(": --gradient: ", line)
+
+
 class Triangles(CollideCase):
     def setUp(self):
         super().setUp()

@@ -7,7 +7,7 @@ import math
 import unittest
 
 import arrays
-from cli_case import CIRCLE, CliCase
+from cli_case import CIRCLE, HALF_PLANE, CliCase
 
 POINTS = [(0.5, 0.0), (3.0, 4.0), (0.0, -2.0), (-1.0, 1.0)]
 EXPECTED = [math.hypot(x, y) - 2 for x, y in POINTS]
@@ -38,6 +38,57 @@ class Eval(CliCase):
         for (x, y), (gx, gy) in zip(POINTS, result["gradient"].rows(), strict=True):
             self.assertAlmostEqual(x / math.hypot(x, y), gx, delta=1e-5)
             self.assertAlmostEqual(y / math.hypot(x, y), gy, delta=1e-5)
+
+    def test_every_strategy_gives_the_gradient_and_counts_what_it_took(self):
+        expected = {
+            "autodiff": 1, "central": 5, "forward": 3, "simplex": 4,
+            "dichotomy": 12, "dichotomy:verbatim": 12, "closest_point": 1,
+        }  # fmt: skip
+        for strategy, evaluations in expected.items():
+            with self.subTest(strategy=strategy):
+                done = self.succeed(*self.command, "--gradient", strategy, "--json", "-o", "out.npz")
+                result = self.result("out.npz")
+                for (x, y), (gx, gy) in zip(POINTS, result["gradient"].rows(), strict=True):
+                    if strategy == "dichotomy:verbatim" and math.hypot(x, y) == 2:
+                        continue  # at the surface |f| grows on both sides, and the published code looks at |f|
+                    self.assertAlmostEqual(x / math.hypot(x, y), gx, delta=1e-2)
+                    self.assertAlmostEqual(y / math.hypot(x, y), gy, delta=1e-2)
+                self.assertEqual([evaluations] * 4, list(result["evaluations"].numbers))
+                self.assertEqual(4 * evaluations, json.loads(done.stdout)["evaluations"])
+
+    def test_the_closest_point_is_a_witness(self):
+        self.succeed(*self.command, "--gradient", "closest_point", "-o", "out.npz")
+        for x, y in self.result("out.npz")["witness"].rows():
+            self.assertAlmostEqual(2, math.hypot(x, y), delta=1e-5)
+
+    def test_the_offset_is_absolute_or_relative_to_the_field_or_to_the_scene(self):
+        central = (*self.command, "--gradient", "central", "-o", "out.npz", "--gradient-offset")
+        seen = {}
+        # f(0, -2) = 0 and f(3, 4) = 3; the diagonal of the circle's bounds is 4 sqrt(2).
+        for offset in ("0.5", "f:0.5", "scene:0.5", "scene:0.5,0.5", "0.01,f:0.5"):
+            done = self.succeed(*central, offset, "--json")
+            seen[offset] = self.result("out.npz")["gradient"].numbers
+            self.assertTrue(json.loads(done.stdout)["gradient_offset"])
+        self.assertEqual(0, math.hypot(*seen["f:0.5"][4:6]), "no offset at the surface, no difference")
+        self.assertNotEqual(seen["0.5"], seen["scene:0.5"])
+        self.assertEqual(seen["scene:0.5"], seen["scene:0.5,0.5"])
+        self.assertEqual(seen["f:0.5"][2:4], seen["0.01,f:0.5"][2:4])
+
+    def test_an_offset_that_cannot_be_is_refused(self):
+        self.scene("plane.json", HALF_PLANE)
+        for offset in ("0", "-1", "x", "f:", "1,", "scene:nan", "g:1"):
+            with self.subTest(offset=offset):
+                line = self.refuse(*self.command, "--gradient", "central", "--gradient-offset", offset, "-o", "out.npz")
+                self.assertIn(": --gradient-offset: ", line)
+        plane = ("eval", "plane.json", "--points", "points.npy", "--gradient", "central", "-o", "out.npz")
+        self.assertIn(": --gradient-offset: ", self.refuse(*plane, "--gradient-offset", "scene:1e-3"))
+        self.refuse(*self.command, "--gradient-offset", "1", "-o", "out.npz")
+
+    def test_a_dichotomy_of_space_is_refused(self):
+        self.save("points3.npy", [1, 2, 3], (1, 3))
+        for strategy in ("dichotomy", "dichotomy:verbatim"):
+            line = self.refuse("eval", "sphere.json", "--points", "points3.npy", "--gradient", strategy, "-o", "out.npz")
+            self.assertIn(": --gradient: expected a strategy for 3D", line)
 
     def test_an_unknown_strategy_is_refused(self):
         self.assertIn(": --gradient: ", self.refuse(*self.command, "--gradient", "guess", "-o", "out.npz"))

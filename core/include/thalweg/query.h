@@ -62,7 +62,7 @@ struct ProbeOffset {
 
 struct GradientOptions {
   Gradient strategy = Gradient::autodiff;
-  ProbeOffset offset;
+  ProbeOffset offset = {};
 };
 
 /// Columns of a batch of points, N rows each; a null column is not computed. Vectors are (N,d) in C order.
@@ -78,7 +78,7 @@ struct CollideOptions {
   Goal goal = Goal::verdict;
   Gradient gradient = Gradient::autodiff;  ///< of the steps of local methods, and of the normals
   bool gradient_given = false;  ///< false: each method its own (`thesis`: dichotomy_verbatim), normals autodiff
-  ProbeOffset gradient_offset;
+  ProbeOffset gradient_offset = {};
   std::uint32_t starts = 0;      ///< 0: the method's own
   std::uint32_t iterations = 0;  ///< 0: the method's own
   double tolerance = 0;          ///< scene units; 0: 1e-4 of the bounds' diagonal, or 1e-4

@@ -151,10 +151,9 @@ template <int D>
 void write_normals(const QueryTile& tile, const QueryState& s, float* scratch, Arena& arena) {
   using P = Pack<1>;
   const CollideColumns& out = tile.columns;
-  float* value = arena.take<float>(padded(tile.count));
   float* gradient[3] = {};
   for (int axis = 0; axis < D; ++axis) gradient[axis] = arena.take<float>(padded(tile.count));
-  GradientColumns columns{.points = s.point, .count = tile.count, .value = value, .gradient = gradient};
+  GradientColumns columns{.points = s.point, .count = tile.count, .gradient = gradient};
   // Closed forms come with one more pass; what is probed for, or searched, is counted.
   if (tile.limits->normals.strategy != Gradient::autodiff) columns.evaluations = s.evaluations;
   evaluate_gradient(tile.limits->normals, *tile.tape, *tile.kernels, columns, scratch);
