@@ -4,7 +4,8 @@
 // Batches of triangles and circles: plans once, solves tile by tile, counts the answers.
 #include <algorithm>
 #include <memory>
-#include <mutex>
+#include <numeric>
+#include <span>
 #include <vector>
 
 #include "schedule.h"
@@ -14,13 +15,38 @@
 namespace thalweg {
 namespace {
 
-/// Queries per tile: their columns fit the second-level cache, and a tile takes tens of microseconds.
+/// Queries per tile. Verdicts take tens of nanoseconds each, and the lanes of a large tile stay full for longer; its
+/// columns still fit the second-level cache. Everything else takes long enough for small tiles to balance the load.
+constexpr std::size_t kVerdictTile = 4096;
 constexpr std::size_t kTile = 1024;
+constexpr std::size_t kLeastTile = 256;
+/// Tiles for each worker, at least, as long as they stay above the least size.
+constexpr std::size_t kTilesPerWorker = 8;
 
-void count_statuses(const std::uint8_t* status, std::size_t rows, Summary& summary) {
-  for (std::size_t i = 0; i < rows; ++i) {
-    ++summary.by_status[std::min<std::size_t>(status[i], 4)];
-  }
+/// No result depends on it.
+std::size_t tile_for(const SolveLimits& limits, std::size_t count, const Execution& execution) {
+  if (execution.tile != 0) return execution.tile;
+  const bool quick = limits.method == Method::certified && limits.goal == Goal::verdict;
+  const std::size_t share = count / (kTilesPerWorker * worker_count(execution)) / kLeastTile * kLeastTile;
+  return std::clamp(share, kLeastTile, quick ? kVerdictTile : kTile);
+}
+
+/// Rows of one status. Counted in 32 bits, which the compiler does a whole vector at a time.
+std::size_t count_of(std::span<const std::uint8_t> status, Status wanted) {
+  std::uint32_t count = 0;
+  for (const std::uint8_t found : status) count += found == static_cast<std::uint8_t>(wanted) ? 1U : 0U;
+  return count;
+}
+
+void count_statuses(std::span<const std::uint8_t> status, Summary& summary) {
+  const std::size_t separated = count_of(status, Status::separated);
+  const std::size_t overlapping = count_of(status, Status::overlapping);
+  summary.by_status[0] += separated;
+  summary.by_status[1] += overlapping;
+  if (separated + overlapping == status.size()) return;
+  summary.by_status[2] += count_of(status, Status::touching);
+  summary.by_status[3] += count_of(status, Status::undecided);
+  summary.by_status[4] += count_of(status, Status::bad_row);
 }
 
 /// What one worker keeps from tile to tile.
@@ -60,8 +86,9 @@ class CollideTask final : public TileTask {
     if (tile.columns.evaluations == nullptr) tile.columns.evaluations = worker->evaluations.data();
     solve(tile, worker->scratch);
     worker->summary.rows += tile.count;
-    count_statuses(tile.columns.status, tile.count, worker->summary);
-    for (std::size_t i = 0; i < tile.count; ++i) worker->summary.evaluations += tile.columns.evaluations[i];
+    count_statuses({tile.columns.status, tile.count}, worker->summary);
+    worker->summary.evaluations +=
+        std::accumulate(tile.columns.evaluations, tile.columns.evaluations + tile.count, std::uint64_t{0});
   }
 
   [[nodiscard]] Summary summary() const {
@@ -91,7 +118,7 @@ Result<Summary> collide(QueryKind kind, const Tape& tape, const Queries& queries
   const auto limits = plan(tape, kind, options);
   if (!limits) return limits.error();
   CollideTask<Tile> task(tape, *limits, queries, columns, execution);
-  const bool complete = schedule(task, queries.count, execution.tile == 0 ? kTile : execution.tile, execution);
+  const bool complete = schedule(task, queries.count, tile_for(*limits, queries.count, execution), execution);
   Summary summary = task.summary();
   summary.cancelled = !complete;
   return summary;

@@ -30,6 +30,7 @@
 #include <limits>
 
 #include "solve/decide.h"
+#include "solve/depth_first.inl"
 #include "solve/domains.inl"
 #include "solve/finish.h"
 #include "solve/tile.h"
@@ -44,8 +45,6 @@ inline constexpr size_t kWaveCells = 8192;
 inline constexpr uint32_t kFirstEnclosureLevel = 2;
 /// From this level on a verdict's incumbents are polished; a deepest point's are from the start.
 inline constexpr uint32_t kFirstProbeLevel = 4;
-
-inline constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
 template <class Domain>
 class Certifier {
@@ -65,13 +64,13 @@ class Certifier {
     next_.take(arena, wave_room, kCoordinates);
     for (float*& column : cell_) column = arena.take<float>(room);
     for (float** column : {&threshold_, &open_lower_, &kept_}) *column = arena.take<float>(wave_room);
-    best_value_ = arena.take<float>(wave_room);
     closed_lower_ = arena.take<float>(wave_room);
     cell_lower_ = arena.take<float>(wave_room);
     cell_open_ = arena.take<float>(wave_room);
     progress_ = arena.take<Progress>(room);
-    touched_ = arena.take<uint32_t>(std::max(room, wave_room));
+    touched_ = arena.take<uint32_t>(std::max(room, wave_room) + kColumnPadding);
     hard_ = arena.take<uint32_t>(room);
+    depth_first_.take(arena);
     kernel_scratch_ = arena.take<float>(scratch_floats(*tile.tape));
     tolerance_ = static_cast<float>(limits_.tolerance);
     scratch.waiting.clear();
@@ -82,8 +81,8 @@ class Certifier {
     first_wave();
     while (refill()) {
       ++level_;
-      split();
-      bound();
+      const bool encloses = level_ >= kFirstEnclosureLevel && (tile_.tape->has_support || wants_deepest());
+      bound_children(tile_, domain_, state_.slack, open_, wave_, encloses, kernel_scratch_);
       take_incumbents();
       if (limits_.goal == Goal::deepest || level_ >= kFirstProbeLevel) probe();
       close_cells();
@@ -141,13 +140,19 @@ class Certifier {
       hn::StoreU(hn::Set(du, 1), du, state_.evaluations + i);
       hn::StoreU(hn::Zero(du), du, state_.iterations + i);
       const auto index = hn::Iota(du, static_cast<uint32_t>(i));
-      open_count += hn::CompressStore(index, hn::RebindMask(du, open), du, touched_ + open_count);
+      hn::StoreU(hn::Compress(index, hn::RebindMask(du, open)), du, touched_ + open_count);
+      open_count += hn::CountTrue(d, open);
     }
     begin_search(open_count);
   }
 
-  /// The queries in touched_ become one cell each.
+  /// The queries in touched_ are open as a whole.
   void begin_search(size_t open_count) {
+    if (!wants_deepest() && limits_.budget >= DepthFirst<Domain>::kLeastBudget) {
+      depth_first_.run(tile_, domain_, state_, {touched_, open_count}, scratch_.waiting, kernel_scratch_);
+      for (const WaitingCell& cell : scratch_.waiting) progress_[cell.query].level = 0;
+      return;
+    }
     for (size_t i = 0; i < open_count; ++i) {
       const uint32_t q = touched_[i];
       for (size_t k = 0; k < kCoordinates; ++k) cell_[k][q] = Domain::kRoot[k];
@@ -155,7 +160,6 @@ class Certifier {
     }
     touched_count_ = open_count;
     if (wants_deepest()) probe();
-    auto& waiting = scratch_.waiting;
     for (size_t i = open_count; i-- > 0;) {
       const uint32_t q = touched_[i];
       if (state_.evaluations[q] + kChildren > limits_.budget) {
@@ -164,7 +168,7 @@ class Certifier {
       }
       WaitingCell cell{q, 0, 0, {}};
       std::copy_n(Domain::kRoot, kCoordinates, cell.at);
-      waiting.push_back(cell);
+      scratch_.waiting.push_back(cell);
       state_.lower[q] = kInfinite;
     }
   }
@@ -195,47 +199,6 @@ class Certifier {
     return true;
   }
 
-  void split() {
-    const size_t lanes = vector_lanes();
-    wave_.stride = (open_.count + lanes - 1) / lanes * lanes;
-    for (size_t i = open_.count; i < wave_.stride; ++i) {
-      open_.query[i] = open_.query[0];
-      for (size_t k = 0; k < kCoordinates; ++k) open_.at[k][i] = open_.at[k][0];
-    }
-    encloses_ = level_ >= kFirstEnclosureLevel && (tile_.tape->has_support || wants_deepest());
-    domain_.split(open_, wave_, encloses_);
-  }
-
-  /// Values at the children's centres, and bounds less the slack.
-  void bound() {
-    const F32 d;
-    const size_t total = kChildren * wave_.stride;
-    if (encloses_) {
-      CellColumns cells;
-      cells.reach = wave_.reach;
-      for (size_t i = 0; i < Domain::kEdgeColumns; ++i) cells.edges[i] = wave_.edges[i];
-      cells.is_box = Domain::kIsBall;
-      tile_.kernels->enclosure(*tile_.tape, wave_.centre, cells, total, wave_.lower, wave_.value, kernel_scratch_);
-    } else {
-      tile_.kernels->value(*tile_.tape, wave_.centre, total, wave_.value, kernel_scratch_);
-      const auto lipschitz = hn::Set(d, static_cast<float>(tile_.tape->facts.lipschitz));
-      for (size_t i = 0; i < total; i += hn::Lanes(d)) {
-        const auto f = hn::LoadU(d, wave_.value + i);
-        hn::StoreU(hn::NegMulAdd(lipschitz, hn::LoadU(d, wave_.reach + i), f), d, wave_.lower + i);
-      }
-    }
-    for (size_t i = 0; i < open_.count; i += hn::Lanes(d)) {
-      const auto slack = gather(state_.slack, open_.query + i);
-      auto best = hn::Set(d, kInfinite);
-      for (size_t k = 0; k < kChildren; ++k) {
-        const size_t at = k * wave_.stride + i;
-        hn::StoreU(hn::Sub(hn::LoadU(d, wave_.lower + at), slack), d, wave_.lower + at);
-        best = hn::Min(best, hn::LoadU(d, wave_.value + at));
-      }
-      hn::StoreU(best, d, best_value_ + i);
-    }
-  }
-
   void take_incumbents() {
     touched_count_ = 0;
     for (size_t i = 0; i < open_.count; ++i) {
@@ -246,19 +209,19 @@ class Certifier {
         touched_[touched_count_++] = q;
       }
       state_.evaluations[q] += kChildren;
-      if (best_value_[i] < state_.value[q]) adopt(q, i);
+      if (wave_.best[i] < state_.value[q]) adopt(q, i);
     }
   }
 
   void adopt(uint32_t q, size_t parent) {
     size_t at = parent;
-    while (wave_.value[at] != best_value_[parent]) at += wave_.stride;
+    while (wave_.value[at] != wave_.best[parent]) at += wave_.stride;
     float cell[kMostCoordinates];
     for (size_t k = 0; k < kCoordinates; ++k) cell_[k][q] = cell[k] = wave_.at[k][at];
     float uv[2];
-    Domain::centre_coordinates(cell, uv);
+    centre_coordinates<Domain>(cell, uv);
     for (int axis = 0; axis < Domain::kAxes; ++axis) state_.point[axis][q] = wave_.centre[axis][at];
-    set_incumbent(q, best_value_[parent], uv);
+    set_incumbent(q, wave_.best[parent], uv);
     progress_[q].improved = true;
   }
 
@@ -461,11 +424,11 @@ class Certifier {
   TileScratch& scratch_;
   Domain domain_;
   QueryState state_;
+  DepthFirst<Domain> depth_first_;
   WaveColumns wave_;
   CellList open_;  ///< parents of the wave
   CellList next_;  ///< parents of the next one
   uint32_t level_ = 0;
-  bool encloses_ = false;
   float tolerance_ = 0;
   float* kernel_scratch_ = nullptr;
   float* cell_[kCoordinates] = {};  ///< per query: the cell whose centre is, or led to, the incumbent
@@ -476,7 +439,6 @@ class Certifier {
   size_t hard_count_ = 0;
   // Per parent of the wave; probes borrow them.
   float* threshold_ = nullptr;
-  float* best_value_ = nullptr;
   float* closed_lower_ = nullptr;
   float* open_lower_ = nullptr;
   float* cell_lower_ = nullptr;

@@ -47,10 +47,11 @@ struct WaveColumns {
   float* edges[9] = {};
   float* value = nullptr;
   float* lower = nullptr;
+  float* best = nullptr;  ///< per parent: the least value of its children
 
   void take(Arena& arena, size_t room, size_t coordinates, size_t edge_columns) {
     for (size_t i = 0; i < coordinates; ++i) at[i] = arena.take<float>(room);
-    for (float** column : {&centre[0], &centre[1], &centre[2], &reach, &value, &lower}) {
+    for (float** column : {&centre[0], &centre[1], &centre[2], &reach, &value, &lower, &best}) {
       *column = arena.take<float>(room);
     }
     for (size_t i = 0; i < edge_columns; ++i) edges[i] = arena.take<float>(room);
@@ -68,14 +69,38 @@ HWY_INLINE V32 gather(const float* column, const uint32_t* index) {
   return hn::GatherIndex(F32(), column, hn::LoadU(di, reinterpret_cast<const int32_t*>(index)));
 }
 
-/// Row-major rows of `width` numbers to columns, with the largest magnitude of each row; rows with a number that is
+/// One vector of row-major rows of `Width` numbers as columns.
+template <size_t Width>
+HWY_INLINE void transpose_rows(const float* rows, V32 (&columns)[Width]) {
+  const F32 d;
+  if constexpr (Width == 3) {
+    hn::LoadInterleaved3(d, rows, columns[0], columns[1], columns[2]);
+  } else if constexpr (Width == 4) {
+    hn::LoadInterleaved4(d, rows, columns[0], columns[1], columns[2], columns[3]);
+#if HWY_TARGET != HWY_SCALAR
+  } else if constexpr (Width == 6) {
+    // Every third number twice over: columns k and k + 3 side by side.
+    V32 low[3], high[3];
+    hn::LoadInterleaved3(d, rows, low[0], low[1], low[2]);
+    hn::LoadInterleaved3(d, rows + 3 * hn::Lanes(d), high[0], high[1], high[2]);
+    for (size_t k = 0; k < 3; ++k) {
+      columns[k] = hn::ConcatEven(d, high[k], low[k]);
+      columns[k + 3] = hn::ConcatOdd(d, high[k], low[k]);
+    }
+#endif
+  } else {
+    const IndexLanes di;
+    const auto first = hn::Mul(hn::Iota(di, 0), hn::Set(di, static_cast<int32_t>(Width)));
+    for (size_t k = 0; k < Width; ++k) columns[k] = hn::GatherIndex(d, rows + k, first);
+  }
+}
+
+/// Row-major rows of `Width` numbers to columns, with the largest magnitude of each row; rows with a number that is
 /// not finite or too large are marked and replaced by zeros.
 template <size_t Width>
 HWY_INLINE void load_rows(const QueryTile& tile, float* const* columns, float* largest, float* is_bad) {
   const F32 d;
-  const IndexLanes di;
   const size_t lanes = hn::Lanes(d);
-  const auto first = hn::Mul(hn::Iota(di, 0), hn::Set(di, static_cast<int32_t>(Width)));
   const auto limit = hn::Set(d, kLargestCoordinate);
   for (size_t i = 0; i < tile.count; i += lanes) {
     const float* rows = tile.rows + i * Width;
@@ -85,22 +110,29 @@ HWY_INLINE void load_rows(const QueryTile& tile, float* const* columns, float* l
       std::copy_n(rows, (tile.count - i) * Width, tail);
       rows = tail;
     }
+    V32 x[Width];
+    transpose_rows(rows, x);
     auto most = hn::Zero(d);
     auto good = hn::Eq(most, most);
     for (size_t k = 0; k < Width; ++k) {
-      const auto x = hn::GatherIndex(d, rows + k, first);
-      const auto size = hn::Abs(x);
+      const auto size = hn::Abs(x[k]);
       good = hn::And(good, hn::Le(size, limit));
       most = hn::Max(most, size);
-      hn::StoreU(x, d, columns[k] + i);
     }
+    for (size_t k = 0; k < Width; ++k) hn::StoreU(hn::IfThenElseZero(good, x[k]), d, columns[k] + i);
     hn::StoreU(hn::IfThenElseZero(good, most), d, largest + i);
     hn::StoreU(hn::IfThenElse(good, hn::Zero(d), hn::Set(d, 1.0F)), d, is_bad + i);
-    if (hn::AllTrue(d, good)) continue;
-    for (size_t k = 0; k < Width; ++k) {
-      hn::StoreU(hn::IfThenElseZero(good, hn::LoadU(d, columns[k] + i)), d, columns[k] + i);
-    }
   }
+}
+
+/// A cell's centre in the coordinates of its query.
+template <class Domain>
+HWY_INLINE void centre_coordinates(const float* cell, float* uv) {
+  V32 at[kMostCoordinates];
+  for (size_t k = 0; k < Domain::kCoordinates; ++k) at[k] = hn::Set(F32(), cell[k]);
+  V32 centre[2];
+  Domain::centre_coordinates(at, centre);
+  for (size_t k = 0; k < 2; ++k) uv[k] = hn::GetLane(centre[k]);
 }
 
 /// Triangles, halved across their longest edge: a cell is its three corners in barycentric coordinates (u, v) of the
@@ -198,9 +230,9 @@ class TriangleDomain {
     }
   }
 
-  static void centre_coordinates(const float* cell, float* uv) {
-    uv[0] = (cell[0] + cell[2] + cell[4]) / 3;
-    uv[1] = (cell[1] + cell[3] + cell[5]) / 3;
+  static HWY_INLINE void centre_coordinates(const V32* cell, V32* uv) {
+    const auto three = hn::Set(F32(), 3.0F);
+    for (size_t k = 0; k < 2; ++k) uv[k] = hn::Div(hn::Add(hn::Add(cell[k], cell[k + 2]), cell[k + 4]), three);
   }
 
   [[nodiscard]] Region64 region(const QueryTile& tile, size_t q) const {
@@ -352,7 +384,7 @@ class BallDomain {
     uv[0] = uv[1] = 0;
   }
 
-  static void centre_coordinates(const float*, float* uv) { uv[0] = uv[1] = 0; }
+  static HWY_INLINE void centre_coordinates(const V32*, V32* uv) { uv[0] = uv[1] = hn::Zero(F32()); }
 
   [[nodiscard]] Region64 region(const QueryTile& tile, size_t q) const {
     Region64 region;

@@ -107,14 +107,18 @@ void write_flags(const QueryTile& tile, const QueryState& s) {
   });
 }
 
+/// Numbers of the rows that could be answered, 0 for the others.
+void write_numbers(const QueryTile& tile, const QueryState& s, const uint32_t* from, uint32_t* to) {
+  if (to == nullptr) return;
+  for (size_t q = 0; q < tile.count; ++q) to[q] = s.is_bad[q] == 0 ? from[q] : 0;
+}
+
 void write_counts(const QueryTile& tile, const QueryState& s) {
   const CollideColumns& out = tile.columns;
-  for (size_t q = 0; q < tile.count; ++q) {
-    const bool good = s.is_bad[q] == 0;
-    if (out.starts != nullptr) out.starts[q] = good ? tile.limits->starts : 0;
-    if (out.iterations != nullptr) out.iterations[q] = good ? s.iterations[q] : 0;
-    if (out.evaluations != nullptr) out.evaluations[q] = good ? s.evaluations[q] : 0;
-  }
+  write_numbers(tile, s, s.iterations, out.iterations);
+  write_numbers(tile, s, s.evaluations, out.evaluations);
+  if (out.starts == nullptr) return;
+  for (size_t q = 0; q < tile.count; ++q) out.starts[q] = s.is_bad[q] == 0 ? tile.limits->starts : 0;
 }
 
 template <int D>
