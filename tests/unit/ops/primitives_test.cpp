@@ -51,7 +51,7 @@ TEST(Ring, WithoutAHolePointsAwayFromItsCentre) {
     const float p[2] = {static_cast<float>(r * std::sin(angle)), static_cast<float>(r * std::cos(angle))};
     for (const Target& target : targets()) {
       float gradient[2] = {};
-      evaluate(tape, p, 1, nullptr, gradient, Gradient::autodiff, {.threads = 1, .target = &target});
+      evaluate(tape, p, 1, nullptr, gradient, {.threads = 1, .target = &target});
       EXPECT_NEAR(gradient[0], -p[0] / r, 1e-6) << i << ' ' << target.name;
       EXPECT_NEAR(gradient[1], -p[1] / r, 1e-6) << i << ' ' << target.name;
     }
@@ -102,7 +102,7 @@ TEST(Blend, StatesARoundingThatCoversItsWidthAroundSmallOperands) {
   const double at[3] = {p[0], p[1], p[2]};
   for (const Target& target : targets()) {
     float value = 0;
-    evaluate(tape, p, 1, &value, nullptr, Gradient::autodiff, {.threads = 1, .target = &target});
+    evaluate(tape, p, 1, &value, nullptr, {.threads = 1, .target = &target});
     EXPECT_NEAR(value, evaluate_double(tape, at, nullptr), tape.slack(0.05)) << target.name;
   }
 }
