@@ -68,7 +68,7 @@ void query_and_exit(int threads) {
   std::vector<float> value(4096);
   bool complete = !collide_triangles(tape, {rows.data(), 4096}, {}, {}, execution)->cancelled;
   complete &= !collide_circles(tape, {rows.data(), 4096}, {}, {}, execution)->cancelled;
-  complete &= evaluate(tape, rows.data(), 4096, value.data(), nullptr, {}, execution) == 0;
+  complete &= evaluate(tape, rows.data(), 4096, value.data(), nullptr, execution) == 0;
   Watch slow;
   complete &= schedule(slow, 1000, 10, execution);
   std::exit(complete ? static_cast<int>(threads_of_process()) : 0);
