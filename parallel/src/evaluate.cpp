@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gradient/strategies.h"
+#include "gradient/ties.h"
 #include "schedule.h"
 #include "solve/arena.h"
 #include "thalweg/batch.h"
@@ -19,6 +20,7 @@ namespace {
 
 /// Points per tile.
 constexpr std::size_t kTile = 4096;
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 const Target& target_of(const Execution& execution) {
   return execution.target == nullptr ? default_target() : *execution.target;
@@ -40,6 +42,7 @@ class EvaluateTask final : public TileTask {
     worker->summary.rows += end - begin;
     const bool in_rows = rule_.strategy == Gradient::autodiff || out_.gradient == nullptr;
     in_rows ? run_rows(begin, end - begin, *worker) : run_columns(begin, end - begin, *worker);
+    if (out_.ambiguous != nullptr || out_.one_sided != nullptr) run_ties(begin, end - begin, worker->arena);
   }
 
   [[nodiscard]] EvaluateSummary summary() const {
@@ -91,6 +94,22 @@ class EvaluateTask final : public TileTask {
     for (std::size_t i = 0; i < count; ++i) store(begin + i, i, tile, worker.summary);
   }
 
+  void run_ties(std::size_t begin, std::size_t count, Arena& arena) const {
+    const TileColumns tile = take(count, arena);
+    load(begin, count, tile);
+    const Ties ties = Ties::make(arena, tape_.dimension, count);
+    find_ties(tape_, *target_.kernels, tile.points, count, ties, arena.take<float>(scratch_floats(tape_)), arena);
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool bad = is_bad(begin + i);
+      if (out_.ambiguous != nullptr) out_.ambiguous[begin + i] = bad ? 0 : ties.tied[i];
+      if (out_.one_sided == nullptr) continue;
+      float* to = out_.one_sided + 2 * d_ * (begin + i);
+      for (const auto& side : ties.sides) {
+        for (std::size_t axis = 0; axis < d_; ++axis) *to++ = bad ? kNan : side[axis][i];
+      }
+    }
+  }
+
   [[nodiscard]] TileColumns take(std::size_t count, Arena& arena) const {
     TileColumns tile;
     for (std::size_t axis = 0; axis < d_; ++axis) {
@@ -121,7 +140,6 @@ class EvaluateTask final : public TileTask {
   }
 
   void store(std::size_t row, std::size_t i, const TileColumns& tile, EvaluateSummary& summary) const {
-    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     const bool bad = is_bad(row);
     summary.bad_rows += bad ? 1 : 0;
     summary.evaluations += bad ? 0 : tile.evaluations[i];

@@ -110,6 +110,18 @@ class Strategies(CollideCase):
                 cost = self.COST[strategy] + 1 + normal
                 self.assertEqual([cost] * 2, list(result["evaluations"].numbers))
 
+    def test_kinks_are_told_and_shown_from_both_sides(self):
+        corner = {"op": "intersection", "of": [{"op": "half_plane", "normal": n, "offset": 0} for n in ([1, 0], [0, 1])]}
+        self.scene("corner.json", {"thalweg": 1, "dimension": 2, "shape": corner})
+        # One ends in the corner, one on the side of it.
+        self.save_triangles([(0, 0, 1, 1, 2, 1), (0, -3, 1, -3, 1, -4)])
+        result = self.collide("--triangles", "triangles.npy", "--goal", "deepest", "--one-sided", scene="corner.json")
+        self.assertEqual([1, 0], list(result["ambiguous"].numbers))
+        self.assertEqual(("<f4", (2, 2, 2)), (result["one_sided"].descr, result["one_sided"].shape))
+        tied, plain = result["one_sided"].rows()
+        self.assertEqual({(1, 0), (0, 1)}, {tuple(map(round, tied[:2])), tuple(map(round, tied[2:]))})
+        self.assertEqual((1, 0, 1, 0), plain)
+
     def test_are_refused_where_they_do_not_exist(self):
         self.save_triangles([(0, 0, 0, 1, 0, 0, 0, 1, 0)], dimension=3)
         self.save("spheres.npy", [0, 0, 0, 1], (1, 4))

@@ -27,7 +27,7 @@ class Arguments(CliCase):
         self.assertIn("--bogus", self.refuse("--bogus"))
 
     def test_commands_of_later_versions_are_unknown(self):
-        for command in ("sweep", "distance", "profile", "stress", "simulate"):
+        for command in ("sweep", "distance", "simulate"):
             self.refuse(command, "circle.json")
 
     def test_unknown_options_and_extra_arguments_are_refused(self):
@@ -78,8 +78,6 @@ class Arguments(CliCase):
             (*collide, "--with", "circle.json", "--poses", "points.npy"),
             (*collide, "--triangles", "points.npy", "--contacts", "4"),
             ("collide", "circle.vm", "--triangles", "points.npy", "-o", "out.npz"),
-            ("render", "circle.json", "-o", "out.png", "--mode", "steps"),
-            ("render", "circle.json", "-o", "out.png", "--mode", "error"),
             ("info", "prospero.vm"),
         ]:
             with self.subTest(arguments=arguments):

@@ -33,7 +33,7 @@ class Eval(CliCase):
     def test_a_gradient_is_a_second_column(self):
         self.succeed(*self.command, "--gradient", "autodiff", "-o", "out.npz")
         result = self.result("out.npz")
-        self.assertEqual(["value", "gradient", "evaluations"], list(result))
+        self.assertEqual(["value", "gradient", "evaluations", "ambiguous"], list(result))
         self.assertEqual(("<f4", (4, 2)), (result["gradient"].descr, result["gradient"].shape))
         for (x, y), (gx, gy) in zip(POINTS, result["gradient"].rows(), strict=True):
             self.assertAlmostEqual(x / math.hypot(x, y), gx, delta=1e-5)
@@ -60,6 +60,23 @@ class Eval(CliCase):
         self.succeed(*self.command, "--gradient", "closest_point", "-o", "out.npz")
         for x, y in self.result("out.npz")["witness"].rows():
             self.assertAlmostEqual(2, math.hypot(x, y), delta=1e-5)
+
+    def test_kinks_are_told_and_shown_from_both_sides(self):
+        pair = {"op": "union", "of": [{"op": "translate", "by": [x, 0], "of": {"op": "circle", "radius": 1}} for x in (-2, 2)]}
+        self.scene("pair.json", {"thalweg": 1, "dimension": 2, "shape": pair})
+        self.save("ties.npy", [0, 0, 2, 0, 0.5, 3, math.nan, 0], (4, 2))
+        ties = ("eval", "pair.json", "--points", "ties.npy", "--gradient", "autodiff", "-o", "out.npz")
+        self.succeed(*ties)
+        self.assertNotIn("one_sided", self.result("out.npz"))
+        self.succeed(*ties, "--one-sided")
+        result = self.result("out.npz")
+        self.assertEqual([1, 1, 0, 0], list(result["ambiguous"].numbers))
+        self.assertEqual(("<f4", (4, 2, 2)), (result["one_sided"].descr, result["one_sided"].shape))
+        sides = result["one_sided"].numbers
+        for found, expected in zip(sides[:4], (1, 0, -1, 0), strict=True):
+            self.assertAlmostEqual(expected, found, delta=1e-3)
+        self.assertEqual(sides[8:10], sides[10:12])
+        self.assertTrue(math.isnan(sides[12]))
 
     def test_the_offset_is_absolute_or_relative_to_the_field_or_to_the_scene(self):
         central = (*self.command, "--gradient", "central", "-o", "out.npz", "--gradient-offset")

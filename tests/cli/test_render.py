@@ -54,11 +54,38 @@ class Render(CliCase):
 
     def test_the_size_and_the_modes(self):
         seen = set()
-        for mode in ("inside", "distance", "gradient"):
+        for mode in ("inside", "distance", "gradient", "error", "steps"):
             width, height, rows = self.picture("--mode", mode, "--size", "64", "48")
             self.assertEqual((64, 48), (width, height))
             seen.add(b"".join(rows))
-        self.assertEqual(3, len(seen))
+        self.assertEqual(5, len(seen))
+
+    def test_a_strategy_shows_in_the_gradient_and_in_its_error(self):
+        size = ("--size", "120", "100")
+        for mode in ("gradient", "error"):
+            exact = self.picture("--mode", mode, *size)
+            rough = self.picture("--mode", mode, *size, "--gradient", "forward", "--gradient-offset", "1")
+            self.assertNotEqual(exact, rough, mode)
+
+    def test_an_error_map_is_darker_where_the_gradient_is_better(self):
+        def lightness(*arguments: str) -> int:
+            # Too small for a legend.
+            return sum(map(sum, self.picture("--mode", "error", "--size", "40", "40", *arguments)[2]))
+
+        exact = lightness()
+        central = lightness("--gradient", "central", "--gradient-offset", "0.01")
+        forward = lightness("--gradient", "forward", "--gradient-offset", "0.5")
+        self.assertLess(exact, central)
+        self.assertLess(central, forward)
+
+    def test_a_map_of_numbers_has_a_legend_where_there_is_room(self):
+        _, _, rows = self.picture("--mode", "error", "--size", "300", "300")
+        self.assertLess(max(rows[10][-150:]), 160, "the map itself is dark")
+        self.assertGreater(min(rows[290][-150:-30]), 200, "the panel of the legend is light")
+
+    def test_a_dichotomy_of_space_is_refused(self):
+        line = self.refuse("render", "sphere.json", "-o", "out.png", "--mode", "error", "--gradient", "dichotomy")
+        self.assertIn(": --gradient: ", line)
 
     def test_y_points_up(self):
         _, _, rows = self.picture("--mode", "inside", "--bounds", "-1", "-1", "1", "1", "--size", "16", "16", scene="plane.json")

@@ -23,21 +23,23 @@ struct Golden {
 // One row a line, as the failing test prints it.
 // clang-format off
 inline constexpr Golden kGolden[] = {
-    {"triangles2_verdict", 0x7f45684cf0a5be2b, 0x4e67340210791a45},
-    {"triangles2_deepest", 0x0935238d2f1fbd21, 0x1e118f1be376eded},
+    {"triangles2_verdict", 0x691ed10b6d2f62f5, 0xb3f4a4a2493fb0e7},
+    {"triangles2_deepest", 0x40e1a85153a38928, 0xc3f220e0893e5b60},
     {"triangles3_verdict", 0x4c5b854ede5b2181, 0x2bd7be58f569785b},
-    {"triangles3_deepest", 0x51b93177689a9616, 0x9397430d8b6b84dc},
-    {"circles2_verdict", 0x667986e3dad185c4, 0xbba369469653c4e3},
-    {"circles2_deepest", 0x61ca29ac6ab055c8, 0x18d099c49a77def2},
+    {"triangles3_deepest", 0xaa4fb69f34ee1b5b, 0xfe264bcee68db5d1},
+    {"circles2_verdict", 0xa26a49e00b4800a7, 0xe10fcaf343c96f2c},
+    {"circles2_deepest", 0x5d8851603fe3ab28, 0xc43c7b6f45d1db12},
     {"spheres3_verdict", 0xad0bd0c3512a4141, 0xe026965652e738ae},
-    {"spheres3_deepest", 0x27688007d8dd55c8, 0xf855e08a95711db2},
-    {"circles2_published", 0xbcf2f14f62a97878, 0x768e0b6dca761dbc},
-    {"triangles2_thesis", 0xe677931f234b05d7, 0x8dab8e9a6d08c6bf},  // libm
-    {"triangles2_projected", 0x566c3eb4166a0264, 0xa2ed38bfcfe26b18},
-    {"triangles3_projected", 0x507b40da6e5b28e3, 0x3798d4bf25868131},
+    {"spheres3_deepest", 0xd4e9537b12b21d19, 0x05812bdff589fab7},
+    {"circles2_published", 0x83385273c281f4c0, 0xa32c76ea69cd2e94},
+    {"triangles2_thesis", 0xba3e1273ed85d28e, 0x455150324a4f2dd7},  // libm
+    {"triangles2_projected", 0x3823882924250deb, 0x42bea53fdf31f7f3},
+    {"triangles3_projected", 0xb2ea0ac341fb46cb, 0x0e5eedd4248cc0c9},
     {"eval2_autodiff", 0x1895b069cc53363d, 0xd3b4cea434aa9d65},
     {"eval3_autodiff", 0x8e649ea305ce7a9a, 0x1c85ba1cb15d9ee5},
     {"eval2_central", 0x7e03138e9c1e26f6, 0x64988fe56363e011},
+    {"eval2_closest_point", 0xfb566a78240201b2, 0xed99ff0478b1c9d8},
+    {"eval3_closest_point", 0x975b5ff2901ad8fc, 0xa10752f35e9205b9},
     {"eval3_forward", 0xf78cc89a1513f82a, 0xdf49bbeef74ad840},
     {"eval3_simplex", 0xd81c7bd810857423, 0x7d0001e3aa60f2c2},
     {"eval2_dichotomy", 0xd8ae6c9d81abc6e8, 0x7f1361b3efff557b},  // libm

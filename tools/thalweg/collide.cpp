@@ -24,6 +24,7 @@ namespace {
 struct Options {
   std::string scene, circles, triangles, output;
   CollideOptions collide;
+  bool one_sided = false;
   std::uint64_t starts = 0, iterations = 0, budget = CollideOptions().budget;
 
   [[nodiscard]] QueryKind kind() const { return triangles.empty() ? QueryKind::circles : QueryKind::triangles; }
@@ -121,6 +122,7 @@ ExitCode run_collide(Options& options, const Globals& globals) {
                                                             : read_circles(options.circles, scene.dimension);
   Output output(options.output);
   CollideResult result(options.kind(), rows.shape[0], scene.dimension);
+  if (options.one_sided) result.want_one_sided();
   const Run run = collide(tape, rows, result, options, globals);
   write_columns(output, options.output, result.list());
   output.commit();
@@ -154,6 +156,7 @@ Command add_collide(CLI::App& app, const Globals& globals) {
       add_word(*command, {"--gradient", "Strategy of a local method's steps, and of the normals"},
                options->collide.gradient, &parse_gradient);
   add_gradient_offset(*command, options->collide.gradient_offset);
+  add_flag(*command, {"--one-sided", "Also `one_sided`: the gradients on two sides of a kink"}, options->one_sided);
   add_integer(*command, {"--starts", "Starts of a local method"}, options->starts, {0, kMost});
   add_integer(*command, {"--iterations", "Iterations of a local method"}, options->iterations, {0, kMost});
   add_positive(*command, {"--tolerance", "Scene units; default 1e-4 of the diagonal of the bounds"},

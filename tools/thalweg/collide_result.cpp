@@ -29,6 +29,7 @@ CollideColumns CollideResult::columns() {
   columns.iterations = iterations.data();
   columns.evaluations = evaluations.data();
   columns.ambiguous = ambiguous.data();
+  columns.one_sided = one_sided.empty() ? nullptr : one_sided.data();
   return columns;
 }
 
@@ -47,6 +48,7 @@ std::vector<Column> CollideResult::list() const {
   list.push_back({"iterations", Dtype::uint32, {count_}, iterations.data()});
   list.push_back({"evaluations", Dtype::uint32, {count_}, evaluations.data()});
   list.push_back({"ambiguous", Dtype::uint8, {count_}, ambiguous.data()});
+  if (!one_sided.empty()) list.push_back({"one_sided", Dtype::float32, {count_, 2, dimension_}, one_sided.data()});
   return list;
 }
 

@@ -22,8 +22,10 @@ class CollideResult {
   [[nodiscard]] CollideColumns columns();          ///< for the batch
   [[nodiscard]] std::vector<Column> list() const;  ///< for the file
 
+  void want_one_sided() { one_sided.resize(2 * count_ * dimension_); }
+
   std::vector<std::uint8_t> status, converged, claimed, ambiguous;
-  std::vector<float> value, lower, point, normal, barycentric;
+  std::vector<float> value, lower, point, normal, barycentric, one_sided;
   std::vector<std::uint32_t> starts, iterations, evaluations;
 
  private:

@@ -23,20 +23,23 @@ namespace {
 struct EvalOptions {
   std::string scene, points, output;
   GradientOptions gradient;
-  bool with_gradient = false;
+  bool with_gradient = false, one_sided = false;
 
   [[nodiscard]] bool with_witness() const { return with_gradient && gradient.strategy == Gradient::closest_point; }
 };
 
 /// What is written, and the columns of it.
 struct EvalResult {
-  std::vector<float> value, gradient, witness;
+  std::vector<float> value, gradient, witness, one_sided;
   std::vector<std::uint32_t> evaluations;
+  std::vector<std::uint8_t> ambiguous;
 
   EvalResult(const EvalOptions& options, const Array& points) : value(points.shape[0]) {
     if (!options.with_gradient) return;
     gradient.resize(points.values.size());
     evaluations.resize(value.size());
+    ambiguous.resize(value.size());
+    if (options.one_sided) one_sided.resize(2 * points.values.size());
     if (options.with_witness()) witness.resize(points.values.size());
   }
 
@@ -45,7 +48,9 @@ struct EvalResult {
     return {.value = value.data(),
             .gradient = or_null(gradient),
             .witness = or_null(witness),
-            .evaluations = or_null(evaluations)};
+            .evaluations = or_null(evaluations),
+            .ambiguous = or_null(ambiguous),
+            .one_sided = or_null(one_sided)};
   }
 
   [[nodiscard]] std::vector<Column> list(const EvalOptions& options, const Array& points) const {
@@ -55,6 +60,10 @@ struct EvalResult {
       list.push_back({"gradient", Dtype::float32, points.shape, gradient.data()});
       if (options.with_witness()) list.push_back({"witness", Dtype::float32, points.shape, witness.data()});
       list.push_back({"evaluations", Dtype::uint32, {count}, evaluations.data()});
+      list.push_back({"ambiguous", Dtype::uint8, {count}, ambiguous.data()});
+      if (options.one_sided) {
+        list.push_back({"one_sided", Dtype::float32, {count, 2, points.shape[1]}, one_sided.data()});
+      }
     }
     return list;
   }
@@ -112,6 +121,8 @@ Command add_eval(CLI::App& app, const Globals& globals) {
                                          options->gradient.strategy, &parse_gradient);
   gradient->type_name("STRATEGY");
   add_gradient_offset(*command, options->gradient.offset)->needs(gradient);
+  add_flag(*command, {"--one-sided", "Also `one_sided`: the gradients on two sides of a kink"}, options->one_sided)
+      ->needs(gradient);
   return {command, [options, gradient, &globals] {
             options->with_gradient = gradient->count() > 0;
             return run_eval(*options, globals);

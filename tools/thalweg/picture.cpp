@@ -13,6 +13,8 @@
 
 #include <fmt/format.h>
 
+#include "legend.h"
+#include "measures.h"
 #include "picture.h"
 #include "progress.h"
 
@@ -26,12 +28,14 @@ constexpr double kOffsets[2] = {0.25, 0.75};
 
 struct Samples {
   std::vector<float> points, value, gradient;
+  std::vector<float> measure;  // what `error` and `steps` show, as a share of their scale
 };
 
 // One pixel's four samples, in the order top left, top right, bottom left, bottom right.
 struct Pixel {
   std::span<const float> value;
   std::span<const float> gradient;  // kSamples times the dimension; empty unless asked for
+  std::span<const float> measure;   // empty unless asked for
   std::size_t dimension = 2;
 
   [[nodiscard]] float mean() const { return (value[0] + value[1] + value[2] + value[3]) / 4; }
@@ -80,6 +84,8 @@ class Painter {
         colour = f < 0 ? inside_(0.45F) : outside_(0.05F);
       } else if (style_.mode == PictureMode::distance) {
         colour = distance_colour(f);
+      } else if (!pixel.measure.empty()) {
+        colour = std::isnan(pixel.measure[i]) ? unknown_ : measure_(pixel.measure[i]);
       } else {
         colour = gradient_colour(pixel.gradient.subspan(i * pixel.dimension, pixel.dimension), f < 0);
       }
@@ -122,6 +128,7 @@ class Painter {
   Colour ink_ = ink();
   Colour paper_ = paper();
   Colour unknown_ = from_hex(0x9a9a9a);
+  Ramp measure_ = measure_ramp();
   Ramp inside_{{0.90F, 0.04F, 4.35F}, {0.36F, 0.12F, 4.55F}};
   Ramp outside_{{0.975F, 0.015F, 1.35F}, {0.66F, 0.16F, 0.95F}};
 };
@@ -141,15 +148,29 @@ void place_samples(const View& view, std::size_t first_row, std::size_t rows, st
   }
 }
 
+void evaluate_samples(const Tape& tape, const PictureStyle& style, const Execution& execution, Samples& samples) {
+  const auto dimension = static_cast<std::size_t>(tape.dimension);
+  const std::size_t count = samples.points.size() / dimension;
+  const bool with_gradient = style.mode == PictureMode::gradient || style.mode == PictureMode::error;
+  samples.value.resize(count);
+  samples.gradient.resize(with_gradient ? count * dimension : 0);
+  const PointColumns columns{.value = samples.value.data(),
+                             .gradient = with_gradient ? samples.gradient.data() : nullptr};
+  static_cast<void>(unwrap(evaluate(tape, Points{samples.points.data(), count}, style.gradient, columns, execution),
+                           kCommandLine, "--gradient"));
+  if (style.mode == PictureMode::error) samples.measure = error_shares(tape, samples.points, samples.gradient);
+  if (style.mode == PictureMode::steps) samples.measure = step_shares(tape, samples.points, style.gradient, execution);
+}
+
 }  // namespace
 
 Result<PictureMode> parse_picture_mode(std::string_view text) {
   if (text == "inside") return PictureMode::inside;
   if (text == "distance") return PictureMode::distance;
   if (text == "gradient") return PictureMode::gradient;
-  const bool later = text == "error" || text == "steps";
-  return Error{"", "", "inside, distance or gradient",
-               fmt::format("'{}'{}", text, later ? ", which is not supported yet" : "")};
+  if (text == "error") return PictureMode::error;
+  if (text == "steps") return PictureMode::steps;
+  return Error{"", "", "inside, distance, gradient, error or steps", fmt::format("'{}'", text)};
 }
 
 Canvas draw_field(const Tape& tape, const View& view, PictureStyle style, const Globals& globals) {
@@ -163,19 +184,19 @@ Canvas draw_field(const Tape& tape, const View& view, PictureStyle style, const 
   Samples samples;
   for (std::size_t first = 0; first < view.height; first += strip_rows) {
     const std::size_t rows = std::min(strip_rows, view.height - first);
-    const std::size_t count = rows * view.width * kSamples;
     place_samples(view, first, rows, dimension, samples);
-    samples.value.resize(count);
-    if (style.mode == PictureMode::gradient) samples.gradient.resize(count * dimension);
-    evaluate(tape, samples.points.data(), count, samples.value.data(),
-             samples.gradient.empty() ? nullptr : samples.gradient.data(), execution);
+    evaluate_samples(tape, style, execution, samples);
     for (std::size_t i = 0; i < rows * view.width; ++i) {
-      const auto value = std::span<const float>(samples.value).subspan(i * kSamples, kSamples);
-      std::span<const float> gradient = samples.gradient;
-      if (!gradient.empty()) gradient = gradient.subspan(i * kSamples * dimension, kSamples * dimension);
-      canvas.at(i % view.width, first + i / view.width) = painter({value, gradient, dimension});
+      const auto part = [&](const std::vector<float>& numbers, std::size_t width) {
+        const std::span<const float> all = numbers;
+        return all.empty() ? all : all.subspan(i * kSamples * width, kSamples * width);
+      };
+      const Pixel pixel{part(samples.value, 1), part(samples.gradient, dimension), part(samples.measure, 1), dimension};
+      canvas.at(i % view.width, first + i / view.width) = painter(pixel);
     }
   }
+  if (style.mode == PictureMode::error) draw_legend(canvas, error_legend());
+  if (style.mode == PictureMode::steps) draw_legend(canvas, steps_legend());
   return canvas;
 }
 

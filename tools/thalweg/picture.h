@@ -12,6 +12,7 @@
 
 #include "canvas.h"
 #include "command.h"
+#include "thalweg/query.h"
 #include "thalweg/result.h"
 #include "thalweg/tape.h"
 
@@ -38,12 +39,19 @@ struct ViewRequest {
 /// and bounds that were not given are widened to the shape of the picture. Refuses an unbounded shape without bounds.
 [[nodiscard]] View choose_view(const ViewRequest& request, const Facts& facts);
 
-enum class PictureMode : std::uint8_t { inside, distance, gradient };
+enum class PictureMode : std::uint8_t {
+  inside,
+  distance,
+  gradient,  ///< direction as hue
+  error,     ///< angle from the gradient in double precision, on a logarithmic scale with a legend
+  steps,     ///< how many steps of |f| along the gradient lead to the surface
+};
 [[nodiscard]] Result<PictureMode> parse_picture_mode(std::string_view text);
 
 struct PictureStyle {
   PictureMode mode = PictureMode::distance;
-  float wash = 0;  ///< 0 to 1: lightens the picture so that an overlay stands out
+  float wash = 0;                 ///< 0 to 1: lightens the picture so that an overlay stands out
+  GradientOptions gradient = {};  ///< of `gradient`, `error` and `steps`
 };
 
 /// The field over the view.

@@ -27,6 +27,7 @@ constexpr float kOverlayWash = 0.2F;
 struct RenderOptions {
   std::string scene, output, overlay, triangles, circles;
   PictureMode mode = PictureMode::distance;
+  GradientOptions gradient;
   std::vector<double> bounds, size, slice;
 
   [[nodiscard]] double z() const { return slice.empty() ? 0 : slice[0]; }
@@ -90,7 +91,8 @@ ExitCode run_render(const RenderOptions& options, const Globals& globals) {
   const View view = choose_view(request, tape.facts);
   const Overlay overlay = options.overlay.empty() ? Overlay() : read_result(options, scene.dimension);
   Output output(options.output);
-  Canvas canvas = draw_field(tape, view, {options.mode, options.overlay.empty() ? 0 : kOverlayWash}, globals);
+  Canvas canvas =
+      draw_field(tape, view, {options.mode, options.overlay.empty() ? 0 : kOverlayWash, options.gradient}, globals);
   draw_overlay(canvas, view, overlay);
   output.write(canvas.png());
   output.commit();
@@ -117,8 +119,13 @@ Command add_render(CLI::App& app, const Globals& globals) {
   const auto options = std::make_shared<RenderOptions>();
   command->add_option("SCENE", options->scene, "Scene file, or - for stdin")->required();
   add_output(*command, options->output, ".png, or - for stdout");
-  add_word(*command, {"--mode", "inside, distance (default) or gradient"}, options->mode, &parse_picture_mode)
+  add_word(*command, {"--mode", "inside, distance (default), gradient, error or steps"}, options->mode,
+           &parse_picture_mode)
       ->type_name("MODE");
+  add_word(*command, {"--gradient", "Strategy of the modes gradient, error and steps; default autodiff"},
+           options->gradient.strategy, &parse_gradient)
+      ->type_name("STRATEGY");
+  add_gradient_offset(*command, options->gradient.offset);
   add_numbers(*command, {"--bounds", "x0 y0 x1 y1; default: those of the shape and 10 % more"}, options->bounds, 4);
   add_numbers(*command, {"--size", "Width and height in pixels; default: 1280 along the longer side"}, options->size,
               2);

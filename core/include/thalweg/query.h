@@ -70,7 +70,9 @@ struct PointColumns {
   float* value = nullptr;     ///< f
   float* gradient = nullptr;  ///< of length 1 or, where differences vanish, 0; `autodiff` leaves the length of grad f
   float* witness = nullptr;   ///< `closest_point`: a point of the surface, the nearest found
-  std::uint32_t* evaluations = nullptr;  ///< of f, the one for `value` among them
+  std::uint32_t* evaluations = nullptr;  ///< of f, the one for `value` among them; ties are not counted
+  std::uint8_t* ambiguous = nullptr;     ///< 1 within rounding of a kink of f, or where its gradient vanishes
+  float* one_sided = nullptr;  ///< (N,2,d): unit gradients on two sides of a kink; elsewhere twice grad f; 0 for none
 };
 
 struct CollideOptions {
@@ -104,7 +106,10 @@ struct CollideColumns {
   std::uint32_t* starts = nullptr;
   std::uint32_t* iterations = nullptr;
   std::uint32_t* evaluations = nullptr;
-  std::uint8_t* ambiguous = nullptr;  ///< the gradient vanishes at `point`; the normal is a fixed unit vector
+  /// The gradient is not unique at `point`: it vanishes there, and the normal is a fixed unit vector, or f has a kink
+  /// within rounding. Kinks are not looked for in rows proven separated under Goal::verdict.
+  std::uint8_t* ambiguous = nullptr;
+  float* one_sided = nullptr;  ///< (N,2,d): unit gradients on two sides of a kink; elsewhere twice grad f; 0 for none
 };
 
 }  // namespace thalweg

@@ -70,7 +70,9 @@ HWY_INLINE ClosestSearch<T, D> begin_closest(const Tape& tape, Point<T, D> p, co
 template <class T, int D>
 HWY_INLINE void advance_closest(ClosestSearch<T, D>& s, const Field<T, D>& f) {
   const auto active = zero<T>() < s.active;
-  const Point<T, D> normal = normalised(f.gradient);
+  // On a corner or a thin piece the trial may be where no gradient is; the last one will do.
+  Point<T, D> normal = normalised(f.gradient);
+  normal = select(zero<T>() < largest_size(normal), normal, s.normal);
   const Point<T, D> to_p = s.from - s.trial;
   const T distance = length(to_p);
   const T tolerance = mul_add(distance, Make<T>::set(kClosestAngle * 0.1F), s.slack + s.slack);

@@ -15,6 +15,7 @@
 #include "kernels/rows.inl"
 #include "solve/finish.h"
 #include "solve/tile.h"
+#include "solve/write_ties.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace thalweg {
@@ -196,6 +197,7 @@ void finish_kernel(const QueryTile& tile, const QueryState& state, float* scratc
     flat ? write_normals<2>(tile, state, scratch, arena) : write_normals<3>(tile, state, scratch, arena);
   }
   write_counts(tile, state);
+  if (out.ambiguous != nullptr || out.one_sided != nullptr) write_ties(tile, state, scratch, arena);
 }
 
 }  // namespace HWY_NAMESPACE

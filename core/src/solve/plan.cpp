@@ -155,6 +155,7 @@ CollideColumns columns_from(const CollideColumns& columns, std::size_t row, int 
   for (auto** column : {&moved.starts, &moved.iterations, &moved.evaluations}) move(*column, 1);
   move(moved.point, d);
   move(moved.normal, d);
+  move(moved.one_sided, 2 * d);
   move(moved.barycentric, 3);
   return moved;
 }
