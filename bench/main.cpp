@@ -32,6 +32,7 @@ int main(int count, char** arguments) {
   benchmark::AddCustomContext("native_lanes", std::to_string(thalweg::bench::native_lanes()));
   thalweg::bench::register_evaluate_cases();
   thalweg::bench::register_triangle_cases();
+  thalweg::bench::register_growth_cases();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return thalweg::bench::any_refused() ? 1 : 0;

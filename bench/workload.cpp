@@ -79,6 +79,7 @@ void refuse(benchmark::State& state, const std::string& why) {
 bool any_refused() { return refused; }
 
 void use_small_batches() { small_batches = true; }
+bool smoke() { return small_batches; }
 std::size_t batch(std::size_t full_size) {
   return small_batches ? std::max<std::size_t>(full_size / 100, 64) : full_size;
 }

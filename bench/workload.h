@@ -32,6 +32,7 @@ struct LoadedScene {
 /// `--smoke`: batches a hundredth of the size, to see that every case runs and answers right.
 void use_small_batches();
 [[nodiscard]] std::size_t batch(std::size_t full_size);
+[[nodiscard]] bool smoke();
 
 /// Ends a case whose answers are wrong: it gets no number, and the program exits with 1.
 void refuse(benchmark::State& state, const std::string& why);
@@ -39,5 +40,6 @@ void refuse(benchmark::State& state, const std::string& why);
 
 void register_evaluate_cases();
 void register_triangle_cases();
+void register_growth_cases();
 
 }  // namespace thalweg::bench

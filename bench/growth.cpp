@@ -1,0 +1,319 @@
+// SPDX-FileCopyrightText: The thalweg authors
+// SPDX-License-Identifier: MIT
+//
+// What growing costs, all sizes by turns within each round: growth/primitives, /queries, /streaming and /threads.
+//   ns_at_<x>        time per query at size x, the median of the rounds
+//   exponent         b of the fitted time = a x^b: of a query for primitives and threads, of a whole batch otherwise
+//   serial_fraction  of growth/threads, after A. Karp and H. Flatt, "Measuring parallel processor performance" (1990)
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "oracle.h"
+#include "rounds.h"
+#include "thalweg/batch.h"
+#include "thalweg/ops.h"
+#include "workload.h"
+
+namespace thalweg::bench {
+namespace {
+
+constexpr int kRounds = 5;
+
+/// Times at a row of sizes.
+class Growth {
+ public:
+  explicit Growth(std::vector<std::size_t> sizes) : sizes_(std::move(sizes)), seconds_(sizes_.size()) {}
+
+  [[nodiscard]] const std::vector<std::size_t>& sizes() const { return sizes_; }
+  void add(std::size_t i, double seconds) { seconds_[i].add(seconds); }
+  [[nodiscard]] double median(std::size_t i) const { return seconds_[i].median(); }
+
+  /// b of the least squares fit of log time = log a + b log size.
+  [[nodiscard]] double exponent() const {
+    double x = 0, y = 0, xx = 0, xy = 0;
+    for (std::size_t i = 0; i < sizes_.size(); ++i) {
+      const double size = std::log(static_cast<double>(sizes_[i])), time = std::log(median(i));
+      x += size, y += time, xx += size * size, xy += size * time;
+    }
+    const auto n = static_cast<double>(sizes_.size());
+    const double variance = n * xx - x * x;
+    return variance > 0 ? (n * xy - x * y) / variance : 0;
+  }
+
+ private:
+  std::vector<std::size_t> sizes_;
+  std::vector<Samples> seconds_;
+};
+
+void finish(benchmark::State& state, const Growth& growth, const std::vector<std::size_t>& queries) {
+  for (std::size_t i = 0; i < growth.sizes().size(); ++i) {
+    state.counters["ns_at_" + std::to_string(growth.sizes()[i])] =
+        1e9 * growth.median(i) / static_cast<double>(queries[i]);
+  }
+  state.counters["exponent"] = growth.exponent();
+}
+
+/// Triangles against a tape, with the columns that most callers take.
+struct Verdicts {
+  const Tape* tape = nullptr;
+  const std::vector<float>* rows = nullptr;
+  std::vector<std::uint8_t> status;
+  std::vector<float> value, point;
+
+  Verdicts(const Tape& of, const std::vector<float>& triangles)
+      : tape(&of), rows(&triangles), status(triangles.size() / 6), value(status.size()), point(2 * status.size()) {}
+
+  void run(std::size_t count, int threads) {
+    CollideColumns columns;
+    columns.status = status.data();
+    columns.value = value.data();
+    columns.point = point.data();
+    benchmark::DoNotOptimize(collide_triangles(*tape, {rows->data(), count}, {}, columns, {.threads = threads})->rows);
+  }
+};
+
+/// `count` small primitives on a jittered grid of cells of 100 by 100 units: the density stays whatever the count.
+Shape scattered(std::size_t count) {
+  const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count))));
+  std::vector<Shape> all;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t column = i % side, row = i / side;
+    const std::uint64_t turn = (i + 1) * 0x9e3779b97f4a7c15U;
+    const double jitter_x = static_cast<double>(turn >> 40 & 0xff) / 8;
+    const double jitter_y = static_cast<double>(turn >> 48 & 0xff) / 8;
+    const Vec2 at{100 * static_cast<double>(column) + jitter_x, 100 * static_cast<double>(row) + jitter_y};
+    const Shape one = i % 3 == 0 ? circle(25) : i % 3 == 1 ? box(Vec2{20, 30}).rotate(0.4) : star(35, 5, 3);
+    all.push_back(one.translate(at));
+  }
+  return union_(std::move(all));
+}
+
+/// Triangles of the same size everywhere, centres uniform over the scene.
+std::vector<float> triangles_over(const Shape& shape, std::size_t count) {
+  std::vector<float> rows = picture_triangles(count);
+  const Bounds& bounds = shape.facts().bounds;
+  const double sx = (bounds.hi[0] - bounds.lo[0]) / 1920, sy = (bounds.hi[1] - bounds.lo[1]) / 1080;
+  for (std::size_t i = 0; i < rows.size(); i += 6) {
+    const double cx = (rows[i] + rows[i + 2] + rows[i + 4]) / 3.0, cy = (rows[i + 1] + rows[i + 3] + rows[i + 5]) / 3.0;
+    for (std::size_t k = 0; k < 6; k += 2) {
+      rows[i + k] = static_cast<float>(bounds.lo[0] + sx * cx + (rows[i + k] - cx) / 6);
+      rows[i + k + 1] = static_cast<float>(bounds.lo[1] + sy * cy + (rows[i + k + 1] - cy) / 6);
+    }
+  }
+  return rows;
+}
+
+/// What the oracle finds wrong with some of the verdicts, or nothing.
+std::string wrong_verdict(const Shape& shape, const Verdicts& answers, std::size_t sample) {
+  const oracle::Field field(shape);
+  const std::size_t stride = std::max<std::size_t>(answers.status.size() / sample, 1);
+  for (std::size_t row = 0; row < answers.status.size(); row += stride) {
+    const float* t = answers.rows->data() + 6 * row;
+    const auto found = oracle::minimum_over_triangle(
+        field, {oracle::Vec{t[0], t[1], 0}, oracle::Vec{t[2], t[3], 0}, oracle::Vec{t[4], t[5], 0}},
+        {.verdict_only = true});
+    const auto verdict = oracle::verdict(field, found, 16384);
+    const auto status = static_cast<Status>(answers.status[row]);
+    if ((status == Status::separated && verdict == oracle::Verdict::overlapping) ||
+        (status == Status::overlapping && verdict == oracle::Verdict::separated)) {
+      return "triangle " + std::to_string(row) + ": the verdict is wrong";
+    }
+  }
+  return "";
+}
+
+void primitives(benchmark::State& state) {
+  Growth growth(smoke() ? std::vector<std::size_t>{10, 100, 1000} : std::vector<std::size_t>{10, 100, 1000, 10'000});
+  std::vector<std::unique_ptr<Tape>> tapes;
+  std::vector<std::vector<float>> rows;
+  std::vector<Verdicts> work;
+  rows.reserve(growth.sizes().size());
+  std::vector<std::size_t> queries;
+  for (const std::size_t size : growth.sizes()) {
+    const Shape scene = scattered(size);
+    auto tape = compile(scene);
+    if (!tape) return refuse(state, to_string(tape.error()));
+    tapes.push_back(std::make_unique<Tape>(std::move(tape).value()));
+    queries.push_back(batch(std::clamp<std::size_t>(20'000'000 / size, 4096, 1 << 18)));
+    rows.push_back(triangles_over(scene, queries.back()));
+    work.emplace_back(*tapes.back(), rows.back());
+    work.back().run(queries.back(), 1);
+    const std::string error = wrong_verdict(scene, work.back(), std::clamp<std::size_t>(100'000 / size, 10, 1000));
+    if (!error.empty()) return refuse(state, std::to_string(size) + " primitives, " + error);
+  }
+  for (auto _ : state) {
+    double sum = 0;
+    for (std::size_t i = 0; i < work.size(); ++i) {
+      const double each = seconds([&] { work[i].run(queries[i], 1); }) / static_cast<double>(queries[i]);
+      growth.add(i, each);
+      sum += each;
+    }
+    state.SetIterationTime(sum);
+  }
+  finish(state, growth, std::vector<std::size_t>(work.size(), 1));
+  state.counters["cost_of_1000_over_10"] = growth.median(2) / growth.median(0);
+}
+
+void queries(benchmark::State& state) {
+  std::string error;
+  const auto scene = load_scene("small", error);
+  if (!scene) return refuse(state, error);
+  std::vector<std::size_t> sizes;
+  for (std::size_t size = 1000; size <= batch(10'000'000); size *= 10) sizes.push_back(size);
+  Growth growth(sizes);
+  const std::vector<float> rows = picture_triangles(sizes.back());
+  Verdicts work(scene->tape, rows);
+  work.run(sizes.back(), 0);
+  if (error = wrong_verdict(scene->shape, work, 1000); !error.empty()) return refuse(state, error);
+  for (auto _ : state) {
+    double sum = 0;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      const double time = seconds([&] { work.run(sizes[i], 0); });
+      growth.add(i, time);
+      sum += time;
+    }
+    state.SetIterationTime(sum);
+  }
+  finish(state, growth, sizes);
+}
+
+/// Memory of this process that is in use, in bytes.
+double resident_bytes() {
+  std::ifstream file("/proc/self/statm");
+  double total = 0, resident = 0;
+  file >> total >> resident;
+  return resident * 4096;
+}
+
+/// A file of this process that is gone when the object is.
+class Scratch {
+ public:
+  Scratch() : file_(std::tmpfile()) {}
+  ~Scratch() {
+    if (file_ != nullptr) std::fclose(file_);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  [[nodiscard]] std::FILE* file() const { return file_; }
+
+ private:
+  std::FILE* file_;
+};
+
+constexpr std::size_t kStreamed = std::size_t{1} << 16;
+
+/// Reads triangles, answers them, writes statuses and values, a chunk at a time; returns the most memory in use, or 0
+/// when a file failed.
+double stream(const Tape& tape, std::FILE* from, std::FILE* to, std::size_t count) {
+  std::vector<float> rows(6 * kStreamed);
+  Verdicts work(tape, rows);
+  double most = 0;
+  std::rewind(from);
+  std::rewind(to);
+  for (std::size_t done = 0; done < count;) {
+    const std::size_t chunk = std::min(kStreamed, count - done);
+    if (std::fread(rows.data(), 24, chunk, from) != chunk) return 0;
+    work.run(chunk, 0);
+    if (std::fwrite(work.status.data(), 1, chunk, to) != chunk) return 0;
+    if (std::fwrite(work.value.data(), 4, chunk, to) != chunk) return 0;
+    most = std::max(most, resident_bytes());
+    done += chunk;
+  }
+  return std::fflush(to) == 0 ? most : 0;
+}
+
+/// `count` triangles into a file, a chunk at a time.
+bool write_triangles(std::FILE* file, std::size_t count) {
+  const std::vector<float> rows = picture_triangles(kStreamed);
+  for (std::size_t done = 0; done < count; done += kStreamed) {
+    const std::size_t chunk = std::min(kStreamed, count - done);
+    if (std::fwrite(rows.data(), 24, chunk, file) != chunk) return false;
+  }
+  return std::fflush(file) == 0;
+}
+
+void streaming(benchmark::State& state) {
+  std::string error;
+  const auto scene = load_scene("small", error);
+  if (!scene) return refuse(state, error);
+  std::vector<std::size_t> sizes;
+  for (std::size_t size = 10'000; size <= batch(10'000'000); size *= 10) sizes.push_back(size);
+  Growth growth(sizes);
+  const Scratch from, to;
+  if (from.file() == nullptr || to.file() == nullptr || !write_triangles(from.file(), sizes.back())) {
+    return refuse(state, "no room for a scratch file");
+  }
+  std::vector<double> memory(sizes.size());
+  for (auto _ : state) {
+    double sum = 0;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      const double time = seconds([&] { memory[i] = stream(scene->tape, from.file(), to.file(), sizes[i]); });
+      if (memory[i] == 0) return refuse(state, "a scratch file failed");
+      growth.add(i, time);
+      sum += time;
+    }
+    state.SetIterationTime(sum);
+  }
+  const double grown = memory.back() - memory.front();
+  if (grown > 16e6) return refuse(state, "memory grows with the number of queries");
+  finish(state, growth, sizes);
+  state.counters["memory_bytes"] = memory.back();
+  state.counters["memory_growth_bytes"] = grown;
+}
+
+void threads(benchmark::State& state) {
+  std::string error;
+  const auto scene = load_scene("small", error);
+  if (!scene) return refuse(state, error);
+  const std::size_t cores = std::max(2U, std::thread::hardware_concurrency());
+  std::vector<std::size_t> sizes;
+  for (std::size_t size = 1; size < cores; size *= 2) sizes.push_back(size);
+  sizes.push_back(cores);
+  Growth growth(sizes);
+  const std::vector<float> rows = picture_triangles(batch(std::size_t{1} << 20));
+  Verdicts work(scene->tape, rows);
+  work.run(work.status.size(), 1);
+  const auto one_thread = work.status;
+  for (auto _ : state) {
+    double sum = 0;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      const double time = seconds([&] { work.run(work.status.size(), static_cast<int>(sizes[i])); });
+      if (work.status != one_thread) return refuse(state, "other threads, other answers");
+      growth.add(i, time);
+      sum += time;
+    }
+    state.SetIterationTime(sum);
+  }
+  finish(state, growth, std::vector<std::size_t>(sizes.size(), work.status.size()));
+  const double speed_up = growth.median(0) / growth.median(sizes.size() - 1);
+  const double inverse = 1 / static_cast<double>(cores);
+  state.counters["vs_one_thread"] = speed_up;
+  state.counters["serial_fraction"] = (1 / speed_up - inverse) / (1 - inverse);
+}
+
+}  // namespace
+
+void register_growth_cases() {
+  const auto add = [](const char* name, auto run) {
+    benchmark::RegisterBenchmark(name, run)
+        ->UseManualTime()
+        ->Unit(benchmark::kMillisecond)
+        ->Iterations(smoke() ? 1 : kRounds);
+  };
+  add("growth/primitives", primitives);
+  add("growth/queries", queries);
+  add("growth/streaming", streaming);
+  add("growth/threads", threads);
+}
+
+}  // namespace thalweg::bench
