@@ -6,8 +6,9 @@
 //
 // Where f is a distance the point is P - f grad f, at once: grad f already comes through the operators. Where f is only
 // a bound, |P - Q|^2 is minimised over the surface: a step along the tangent plane at Q towards the foot of P, then
-// Newton's steps along the gradient back to the surface; a step that does not come nearer is halved. Every lane goes
-// its own way and stops by itself, so no result depends on a neighbour. Included once per SIMD target.
+// Newton's steps along the gradient back to the surface; a step that does not come nearer is halved. Every lane
+// goes its own way, stops by itself and takes the next point, so lanes stay full and no result depends on a neighbour.
+// Included once per SIMD target.
 #if defined(THALWEG_GRADIENT_CLOSEST_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef THALWEG_GRADIENT_CLOSEST_INL
 #undef THALWEG_GRADIENT_CLOSEST_INL
@@ -23,7 +24,7 @@ namespace thalweg {
 namespace HWY_NAMESPACE {
 
 /// Evaluations of one point, at most.
-inline constexpr int kMostClosestEvaluations = 48;
+inline constexpr float kMostClosestEvaluations = 48;
 /// Newton's steps of one return to the surface, at most.
 inline constexpr float kMostReturns = 8;
 /// What a direction may be off by, in radians, and a distance to the surface in its own length.
@@ -42,6 +43,7 @@ struct ClosestSearch {
   T slack;              ///< what |f| on the surface may be by rounding
   T active;             ///< 1 while the search goes on
   T evaluations;
+  T value;  ///< f at P
 };
 
 template <class T, int D>
@@ -63,13 +65,13 @@ HWY_INLINE ClosestSearch<T, D> begin_closest(const Tape& tape, Point<T, D> p, co
   s.share = yes;
   s.returns = no;
   s.evaluations = yes;
+  s.value = f.value;
   return s;
 }
 
 /// One evaluation at the trial: back to the surface, or a verdict on the step that led there and the next one.
 template <class T, int D>
 HWY_INLINE void advance_closest(ClosestSearch<T, D>& s, const Field<T, D>& f) {
-  const auto active = zero<T>() < s.active;
   // On a corner or a thin piece the trial may be where no gradient is; the last one will do.
   Point<T, D> normal = normalised(f.gradient);
   normal = select(zero<T>() < largest_size(normal), normal, s.normal);
@@ -95,26 +97,13 @@ HWY_INLINE void advance_closest(ClosestSearch<T, D>& s, const Field<T, D>& f) {
   const Point<T, D> next = s.nearest + scaled(s.tangent, s.share);
   s.trial = select(both(settles, has_point), next, back);
   s.returns = select(settles, zero<T>(), s.returns + one<T>());
-  s.evaluations = select(active, s.evaluations + one<T>(), s.evaluations);
+  s.evaluations = s.evaluations + one<T>();
 
   const T step = length(s.tangent) * s.share;
   const auto arrived = both(settles, step <= mul_add(s.least, Make<T>::set(kClosestAngle), s.slack));
   const auto is_lost = both(gives_up, Make<T>::set(std::numeric_limits<float>::infinity()) <= s.least);
-  s.active = select(either(both(has_point, arrived), is_lost), zero<T>(), s.active);
-}
-
-/// Lanes that have stopped keep what they had.
-template <class T, int D>
-HWY_INLINE void keep_stopped(ClosestSearch<T, D>& s, const ClosestSearch<T, D>& before) {
-  const auto stopped = before.active <= zero<T>();
-  s.trial = select(stopped, before.trial, s.trial);
-  s.nearest = select(stopped, before.nearest, s.nearest);
-  s.tangent = select(stopped, before.tangent, s.tangent);
-  s.normal = select(stopped, before.normal, s.normal);
-  s.least = select(stopped, before.least, s.least);
-  s.share = select(stopped, before.share, s.share);
-  s.returns = select(stopped, before.returns, s.returns);
-  s.active = select(stopped, before.active, s.active);
+  const auto is_spent = Make<T>::set(kMostClosestEvaluations) <= s.evaluations;
+  s.active = select(either(either(both(has_point, arrived), is_lost), is_spent), zero<T>(), s.active);
 }
 
 template <class T, int D>
@@ -131,27 +120,11 @@ HWY_INLINE Field<T, D> gradient_at_point(const Machine<T>& m, Point<T, D> p) {
   return {Make<T>::load(field), load_point<T, D>(field + lanes_of<T>())};
 }
 
+/// What a search found. Close to the surface the direction is lost in rounding, and the normal there is as good.
 template <class T, int D>
-struct Closest {
-  T value;
-  Point<T, D> gradient, witness;
-  T evaluations;
-};
-
-template <class T, int D>
-HWY_INLINE Closest<T, D> closest(const Tape& tape, const Machine<T>& m, Point<T, D> p) {
-  const Field<T, D> here = gradient_at_point(m, p);
-  ClosestSearch<T, D> s = begin_closest(tape, p, here);
-  for (int i = 1; i < kMostClosestEvaluations && count_true(zero<T>() < s.active) > 0; ++i) {
-    const ClosestSearch<T, D> before = s;
-    advance_closest(s, gradient_at_point(m, s.trial));
-    keep_stopped(s, before);
-  }
-  // Close to the surface the direction is lost in rounding, and the normal there is as good.
-  const Point<T, D> to_p = p - s.nearest;
+HWY_INLINE Point<T, D> closest_direction(const ClosestSearch<T, D>& s) {
   const auto is_far = both(Make<T>::set(64.0F) * s.slack < s.least, s.least < Make<T>::set(kLargestCoordinate));
-  const Point<T, D> away = normalised(scaled(to_p, sign_of(here.value)));
-  return {here.value, select(is_far, away, s.normal), s.nearest, s.evaluations};
+  return select(is_far, normalised(scaled(s.from - s.nearest, sign_of(s.value))), s.normal);
 }
 
 }  // namespace HWY_NAMESPACE
