@@ -97,7 +97,7 @@ class EvaluateTask final : public TileTask {
   void run_ties(std::size_t begin, std::size_t count, Arena& arena) const {
     const TileColumns tile = take(count, arena);
     load(begin, count, tile);
-    const Ties ties = Ties::make(arena, tape_.dimension, count);
+    const Ties ties = Ties::make(arena, tape_.dimension, count, out_.one_sided != nullptr);
     find_ties(tape_, *target_.kernels, tile.points, count, ties, arena.take<float>(scratch_floats(tape_)), arena);
     for (std::size_t i = 0; i < count; ++i) {
       const bool bad = is_bad(begin + i);

@@ -40,8 +40,34 @@ class TieSearch {
     }
   }
 
-  void compare(const Ties& ties) {
-    for (std::size_t i = 0; i < count_; ++i) compare(ties, i);
+  /// Over whole columns and without branches, which compilers turn into vectors.
+  void mark(const Ties& ties, Arena& arena) {
+    auto* flag = arena.take<float>(padded(count_));
+    auto* square = arena.take<float>(padded(count_) * (d_ + 1));
+    const std::size_t room = padded(count_);
+    sum_products(here(), here(), square);
+    for (std::size_t i = 0; i < count_; ++i) flag[i] = square[i] > kVanishing * kVanishing ? 0.0F : 1.0F;
+    for (std::size_t a = 0; a <= d_; ++a) sum_products(gradients_[a], gradients_[a], square + a * room);
+    auto* product = arena.take<float>(room);
+    for (std::size_t a = 0; a <= d_; ++a) {
+      for (std::size_t b = a + 1; b <= d_; ++b) {
+        sum_products(gradients_[a], gradients_[b], product);
+        const float* aa = square + a * room;
+        const float* bb = square + b * room;
+        for (std::size_t i = 0; i < count_; ++i) {
+          // The cosine is below the threshold where its product with its size is.
+          const float turned =
+              product[i] * std::fabs(product[i]) < kTieCosine * kTieCosine * aa[i] * bb[i] ? 1.0F : 0.0F;
+          const float exists = std::min(aa[i], bb[i]) > kVanishing * kVanishing ? turned : 0.0F;
+          flag[i] = std::max(flag[i], exists);
+        }
+      }
+    }
+    for (std::size_t i = 0; i < count_; ++i) ties.tied[i] = flag[i] > 0 ? 1 : 0;
+  }
+
+  void choose_sides(const Ties& ties) {
+    for (std::size_t i = 0; i < count_; ++i) choose_sides(ties, i);
   }
 
  private:
@@ -74,24 +100,28 @@ class TieSearch {
     return sum;
   }
 
-  void compare(const Ties& ties, std::size_t i) {
-    Unit around[4];
-    for (std::size_t vertex = 0; vertex <= d_; ++vertex) around[vertex] = unit(gradients_[vertex], i);
+  void sum_products(const float* const* a, const float* const* b, float* sum) const {
+    for (std::size_t i = 0; i < count_; ++i) sum[i] = a[0][i] * b[0][i];
+    for (std::size_t axis = 1; axis < d_; ++axis) {
+      for (std::size_t i = 0; i < count_; ++i) sum[i] += a[axis][i] * b[axis][i];
+    }
+  }
+
+  void choose_sides(const Ties& ties, std::size_t i) {
     const Unit at_point = unit(here(), i);
-    float least = 1;
     const Unit* pair[2] = {&at_point, &at_point};
-    for (std::size_t a = 0; a <= d_; ++a) {
-      for (std::size_t b = a + 1; b <= d_; ++b) {
-        if (around[a].vanishes || around[b].vanishes) continue;
-        const float c = cosine(around[a], around[b]);
-        if (!(c < std::min(least, kTieCosine))) continue;
-        least = c;
-        pair[0] = &around[a];
-        pair[1] = &around[b];
+    Unit around[4];
+    float least = 2;
+    for (std::size_t a = 0; a <= d_ && ties.tied[i] != 0; ++a) {
+      around[a] = unit(gradients_[a], i);
+      for (std::size_t b = 0; b < a; ++b) {
+        if (around[a].vanishes || around[b].vanishes || !(cosine(around[a], around[b]) < least)) continue;
+        least = cosine(around[a], around[b]);
+        pair[0] = &around[b];
+        pair[1] = &around[a];
       }
     }
     if (cosine(*pair[1], at_point) > cosine(*pair[0], at_point)) std::swap(pair[0], pair[1]);
-    ties.tied[i] = least < kTieCosine || at_point.vanishes ? 1 : 0;
     for (std::size_t side = 0; side < 2; ++side) {
       for (std::size_t axis = 0; axis < d_; ++axis) ties.sides[side][axis][i] = pair[side]->x[axis];
     }
@@ -107,9 +137,10 @@ class TieSearch {
 
 }  // namespace
 
-Ties Ties::make(Arena& arena, int dimension, std::size_t count) {
+Ties Ties::make(Arena& arena, int dimension, std::size_t count, bool with_sides) {
   Ties ties;
   ties.tied = arena.take<std::uint8_t>(padded(count));
+  if (!with_sides) return ties;
   for (auto& side : ties.sides) {
     for (int axis = 0; axis < dimension; ++axis) side[axis] = arena.take<float>(padded(count));
   }
@@ -126,7 +157,8 @@ void find_ties(const Tape& tape, const Kernels& kernels, const float* const* poi
                const Ties& ties, float* kernel_scratch, Arena& arena) {
   TieSearch search(tape, points, count, arena);
   search.look_around(kernels, kernel_scratch);
-  search.compare(ties);
+  search.mark(ties, arena);
+  if (ties.sides[0][0] != nullptr) search.choose_sides(ties);
 }
 
 }  // namespace thalweg

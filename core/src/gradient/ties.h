@@ -19,10 +19,10 @@ inline constexpr float kTieCosine = 0.9986295F;
 struct Ties {
   std::uint8_t* tied = nullptr;  ///< 1 within rounding of a kink, and where the gradient vanishes
   /// Unit gradients on two sides of a kink: of those around the point the two that differ most, first the one nearer to
-  /// the gradient at the point. Elsewhere both are that gradient.
+  /// the gradient at the point. Elsewhere both are that gradient. Null where nobody wants them.
   float* sides[2][3] = {};
 
-  static Ties make(Arena& arena, int dimension, std::size_t count);
+  static Ties make(Arena& arena, int dimension, std::size_t count, bool with_sides);
 };
 
 /// How far from a point of this largest coordinate the vertices are.

@@ -21,17 +21,23 @@ class TieWriter {
     for (std::size_t q = 0; q < tile_.count; ++q) {
       if (wants_ambiguous(q) || wants_sides(q)) rows[count++] = static_cast<std::uint32_t>(q);
     }
+    if (count == 0) return mark_bad_rows();
     float* points[3] = {};
     for (std::size_t axis = 0; axis < d_; ++axis) {
       points[axis] = arena_.take<float>(padded(count));
       for (std::size_t i = 0; i < count; ++i) points[axis][i] = state_.point[axis][rows[i]];
     }
-    const Ties ties = Ties::make(arena_, tile_.tape->dimension, count);
+    const Ties ties = Ties::make(arena_, tile_.tape->dimension, count, tile_.columns.one_sided != nullptr);
     find_ties(*tile_.tape, *tile_.kernels, points, count, ties, kernel_scratch, arena_);
     for (std::size_t i = 0; i < count; ++i) {
       if (ties.tied[i] != 0 && wants_ambiguous(rows[i])) tile_.columns.ambiguous[rows[i]] = 1;
       if (wants_sides(rows[i])) write_sides(rows[i], ties, i);
     }
+    mark_bad_rows();
+  }
+
+ private:
+  void mark_bad_rows() const {
     if (tile_.columns.one_sided == nullptr) return;
     for (std::size_t q = 0; q < tile_.count; ++q) {
       if (state_.is_bad[q] != 0) {
@@ -39,8 +45,6 @@ class TieWriter {
       }
     }
   }
-
- private:
   [[nodiscard]] bool wants_ambiguous(std::size_t q) const {
     const bool separated = state_.lower[q] > 0;
     return tile_.columns.ambiguous != nullptr && state_.is_bad[q] == 0 &&
