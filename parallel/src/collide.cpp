@@ -3,11 +3,13 @@
 //
 // Batches of triangles and circles: plans once, solves tile by tile, counts the answers.
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <span>
 #include <vector>
 
+#include "ordered_rows.h"
 #include "schedule.h"
 #include "solve/plan.h"
 #include "thalweg/batch.h"
@@ -49,6 +51,37 @@ void count_statuses(std::span<const std::uint8_t> status, Summary& summary) {
   summary.by_status[4] += count_of(status, Status::bad_row);
 }
 
+/// A tile's own result columns, for rows that are answered in another order than the caller's.
+class ResultBuffer {
+ public:
+  /// Room for `count` rows of every column that `wanted` has.
+  const CollideColumns& take(const CollideColumns& wanted, std::size_t count, int dimension) {
+    arena_.reset();
+    for_each_column(
+        dimension,
+        [&]<class T>(std::size_t width, T*& own, T* const& asked) {
+          own = asked == nullptr ? nullptr : arena_.take<T>(count * width);
+        },
+        columns_, wanted);
+    return columns_;
+  }
+  /// Row i goes to row order[i] of the caller's columns.
+  void scatter(std::span<const std::uint32_t> order, const CollideColumns& to, int dimension) const {
+    for_each_column(
+        dimension,
+        [&]<class T>(std::size_t width, T* const& own, T* const& out) {
+          for (std::size_t i = 0; out != nullptr && i < order.size(); ++i) {
+            for (std::size_t k = 0; k < width; ++k) out[order[i] * width + k] = own[i * width + k];
+          }
+        },
+        columns_, to);
+  }
+
+ private:
+  Arena arena_;
+  CollideColumns columns_;
+};
+
 /// What one worker keeps from tile to tile.
 struct Worker {
   explicit Worker(const Tape& tape) : scratch(tape) {}
@@ -56,6 +89,9 @@ struct Worker {
   std::vector<std::uint8_t> status;
   std::vector<std::uint32_t> evaluations;
   Summary summary;
+  // Of ordered rows.
+  std::unique_ptr<OrderedRows> ordered;
+  ResultBuffer results;
 };
 
 template <class Tile>
@@ -63,32 +99,37 @@ class CollideTask final : public TileTask {
  public:
   CollideTask(const Tape& tape, const SolveLimits& limits, const Queries& queries, const CollideColumns& columns,
               const Execution& execution)
-      : tape_(tape), limits_(limits), queries_(queries), columns_(columns), workers_(worker_count(execution)) {
+      : tape_(tape),
+        limits_(limits),
+        queries_(queries),
+        columns_(columns),
+        execution_(execution),
+        workers_(worker_count(execution)) {
     target_ = execution.target == nullptr ? &default_target() : execution.target;
-    const auto d = static_cast<std::size_t>(tape.dimension);
-    width_ = std::is_same_v<Tile, TriangleTile> ? 3 * d : d + 1;
+    layout_.dimension = static_cast<std::size_t>(tape.dimension);
+    layout_.points = std::is_same_v<Tile, TriangleTile> ? 3 : 1;
+    layout_.has_radius = !std::is_same_v<Tile, TriangleTile>;
+    // Local methods evaluate outside of the queries, where a tape shortened for them says nothing.
+    if (limits.method == Method::certified && tape.instructions.size() >= kLongTape && queries.count >= kOrderedTile &&
+        queries.count < std::numeric_limits<std::uint32_t>::max()) {
+      order_ = spatial_order(layout_, queries.rows, queries.count);
+    }
+  }
+
+  /// Rows for one call of run().
+  [[nodiscard]] std::size_t rows_per_task() const {
+    return order_.empty() ? tile_for(limits_, queries_.count, execution_) : ordered_tile() * kBlockTiles;
   }
 
   void run(std::size_t begin, std::size_t end, std::size_t index) override {
     std::unique_ptr<Worker>& worker = workers_[index];
     if (worker == nullptr) worker = std::make_unique<Worker>(tape_);
-    worker->status.resize(end - begin);
-    worker->evaluations.resize(end - begin);
-    Tile tile;
-    tile.tape = &tape_;
-    tile.kernels = target_->kernels;
-    tile.limits = &limits_;
-    tile.rows = queries_.rows + begin * width_;
-    tile.count = end - begin;
-    tile.columns = columns_from(columns_, begin, tape_.dimension);
-    // The summary counts what the caller may not have asked for.
-    if (tile.columns.status == nullptr) tile.columns.status = worker->status.data();
-    if (tile.columns.evaluations == nullptr) tile.columns.evaluations = worker->evaluations.data();
-    solve(tile, worker->scratch);
-    worker->summary.rows += tile.count;
-    count_statuses({tile.columns.status, tile.count}, worker->summary);
-    worker->summary.evaluations +=
-        std::accumulate(tile.columns.evaluations, tile.columns.evaluations + tile.count, std::uint64_t{0});
+    if (order_.empty()) {
+      answer(tape_, queries_.rows + begin * layout_.width(), end - begin,
+             columns_from(columns_, begin, tape_.dimension), *worker);
+    } else {
+      run_ordered({order_.data() + begin, end - begin}, *worker);
+    }
   }
 
   [[nodiscard]] Summary summary() const {
@@ -103,12 +144,48 @@ class CollideTask final : public TileTask {
   }
 
  private:
+  [[nodiscard]] std::size_t ordered_tile() const { return execution_.tile == 0 ? kOrderedTile : execution_.tile; }
+
+  void run_ordered(std::span<const std::uint32_t> order, Worker& worker) {
+    if (worker.ordered == nullptr) worker.ordered = std::make_unique<OrderedRows>(tape_, layout_, true);
+    OrderedRows& rows = *worker.ordered;
+    rows.take(queries_.rows, order, ordered_tile(), *target_->kernels);
+    for (std::size_t begin = 0; begin < order.size(); begin += ordered_tile()) {
+      const auto own = order.subspan(begin, std::min(ordered_tile(), order.size() - begin));
+      const CollideColumns& results = worker.results.take(columns_, own.size(), tape_.dimension);
+      answer(rows.tape_of(begin / ordered_tile()), rows.rows() + begin * layout_.width(), own.size(), results, worker);
+      worker.results.scatter(own, columns_, tape_.dimension);
+    }
+  }
+
+  void answer(const Tape& tape, const float* rows, std::size_t count, const CollideColumns& columns, Worker& worker) {
+    worker.status.resize(count);
+    worker.evaluations.resize(count);
+    Tile tile;
+    tile.tape = &tape;
+    tile.kernels = target_->kernels;
+    tile.limits = &limits_;
+    tile.rows = rows;
+    tile.count = count;
+    tile.columns = columns;
+    // The summary counts what the caller may not have asked for.
+    if (tile.columns.status == nullptr) tile.columns.status = worker.status.data();
+    if (tile.columns.evaluations == nullptr) tile.columns.evaluations = worker.evaluations.data();
+    solve(tile, worker.scratch);
+    worker.summary.rows += count;
+    count_statuses({tile.columns.status, count}, worker.summary);
+    worker.summary.evaluations +=
+        std::accumulate(tile.columns.evaluations, tile.columns.evaluations + count, std::uint64_t{0});
+  }
+
   const Tape& tape_;
   const SolveLimits& limits_;
   const Queries& queries_;
   const CollideColumns& columns_;
+  const Execution& execution_;
   const Target* target_;
-  std::size_t width_;
+  RowLayout layout_;
+  std::vector<std::uint32_t> order_;  ///< empty: the caller's
   std::vector<std::unique_ptr<Worker>> workers_;
 };
 
@@ -118,7 +195,7 @@ Result<Summary> collide(QueryKind kind, const Tape& tape, const Queries& queries
   const auto limits = plan(tape, kind, options);
   if (!limits) return limits.error();
   CollideTask<Tile> task(tape, *limits, queries, columns, execution);
-  const bool complete = schedule(task, queries.count, tile_for(*limits, queries.count, execution), execution);
+  const bool complete = schedule(task, queries.count, task.rows_per_task(), execution);
   Summary summary = task.summary();
   summary.cancelled = !complete;
   return summary;

@@ -19,11 +19,12 @@ namespace thalweg {
 ///   combine    acc = op(register[operand], acc), the other way round when kSwapped is set
 ///   map        acc = op(acc)
 ///   load       acc = register[operand]
+///   keep       leaves the accumulator as it is; in shortened tapes, where it is stored
 ///   warp       position[target] = op(position[operand]); the accumulator is left alone
 struct Instruction {
   static constexpr std::uint16_t kNone = 0xffff;
 
-  std::uint16_t op = 0;          ///< row of the op table, or kLoad
+  std::uint16_t op = 0;          ///< row of the op table, kLoad or kKeep
   std::uint16_t operand = 0;     ///< register or position read
   std::uint16_t target = kNone;  ///< register or position written; kNone: the accumulator alone
   std::uint16_t flags = 0;       ///< see the constants below
@@ -31,6 +32,7 @@ struct Instruction {
   std::uint32_t constant_count = 0;
 
   static constexpr std::uint16_t kLoad = 0xfffe;
+  static constexpr std::uint16_t kKeep = 0xfffd;
   static constexpr std::uint16_t kSupport = 1;  ///< convex primitive with a support function, reached rigidly
   static constexpr std::uint16_t kDepth = 2;    ///< primitive of exact inside, reached rigidly
   static constexpr std::uint16_t kSwapped = 4;  ///< the accumulator is the first operand

@@ -32,6 +32,7 @@ std::string joined(const Parts&... parts) {
 std::string action(const Instruction& in) {
   const std::string operand = std::to_string(in.operand);
   if (in.op == Instruction::kLoad) return joined("acc = r", operand);
+  if (in.op == Instruction::kKeep) return "acc";
   const OpRow& row = op_table()[in.op];
   switch (row.kind) {
     case OpKind::primitive:
@@ -47,7 +48,7 @@ std::string action(const Instruction& in) {
 }
 
 bool moves_position(const Instruction& in) {
-  return in.op != Instruction::kLoad && op_table()[in.op].kind >= OpKind::place;
+  return in.op < Instruction::kKeep && op_table()[in.op].kind >= OpKind::place;
 }
 
 }  // namespace

@@ -141,13 +141,13 @@ struct ValueMode {
     return {Declared::field(p, c).value};
   }
   template <class Declared>
-  HWY_INLINE Register combine(Register a, Register b, Constants<T> c) const {
+  HWY_INLINE Register combine(const Machine<T>&, const Instruction&, Register a, Register b, Constants<T> c) const {
     const Field<T, D> fa{a.value, {}};
     const Field<T, D> fb{b.value, {}};
     return {Declared::combine(fa, fb, c).value};
   }
   template <class Declared>
-  HWY_INLINE Register map(Register a, Constants<T> c) const {
+  HWY_INLINE Register map(const Machine<T>&, const Instruction&, Register a, Constants<T> c) const {
     return {Declared::map(Field<T, D>{a.value, {}}, c).value};
   }
   template <class S>
@@ -174,11 +174,12 @@ struct GradientMode {
     return f;
   }
   template <class Declared>
-  HWY_INLINE Register combine(const Register& a, const Register& b, Constants<T> c) const {
+  HWY_INLINE Register combine(const Machine<T>&, const Instruction&, const Register& a, const Register& b,
+                              Constants<T> c) const {
     return Declared::combine(a, b, c);
   }
   template <class Declared>
-  HWY_INLINE Register map(const Register& a, Constants<T> c) const {
+  HWY_INLINE Register map(const Machine<T>&, const Instruction&, const Register& a, Constants<T> c) const {
     return Declared::map(a, c);
   }
   template <class S>
@@ -233,13 +234,14 @@ struct EnclosureMode {
   }
   /// Operators are monotone in each operand: the end points of the operands give those of the result.
   template <class Declared>
-  HWY_INLINE Register combine(const Register& a, const Register& b, Constants<T> c) const {
+  HWY_INLINE Register combine(const Machine<T>&, const Instruction&, const Register& a, const Register& b,
+                              Constants<T> c) const {
     constexpr bool kRising = Declared::kTrend[1] > 0;
     const auto at = [&](T x, T y) { return Declared::combine(Field<T, D>{x, {}}, Field<T, D>{y, {}}, c).value; };
     return {at(a.lo, kRising ? b.lo : b.hi), at(a.value, b.value), at(a.hi, kRising ? b.hi : b.lo)};
   }
   template <class Declared>
-  HWY_INLINE Register map(const Register& a, Constants<T> c) const {
+  HWY_INLINE Register map(const Machine<T>&, const Instruction&, const Register& a, Constants<T> c) const {
     const auto at = [&](T x) { return Declared::map(Field<T, D>{x, {}}, c).value; };
     if constexpr (Declared::kTrend == 0) {
       const Interval<T> ends = Declared::enclose(Interval<T>{a.lo, a.hi}, c);
@@ -281,12 +283,12 @@ HWY_INLINE void step(const Mode& mode, const Machine<typename Mode::T>& m, const
   } else if constexpr (kKind == OpKind::combine) {
     const auto other = Mode::load(m.registers + in.operand * Mode::kComponents * lanes_of<T>());
     if ((in.flags & Instruction::kSwapped) != 0) {
-      acc = mode.template combine<Declared>(acc, other, c);
+      acc = mode.template combine<Declared>(m, in, acc, other, c);
     } else {
-      acc = mode.template combine<Declared>(other, acc, c);
+      acc = mode.template combine<Declared>(m, in, other, acc, c);
     }
   } else if constexpr (kKind == OpKind::map) {
-    acc = mode.template map<Declared>(acc, c);
+    acc = mode.template map<Declared>(m, in, acc, c);
   } else if constexpr (kMovesPosition<Declared>) {
     const auto from = load_point<T, D>(m.positions + in.operand * D * lanes_of<T>());
     store_point(Declared::map(from, c), m.positions + in.target * D * lanes_of<T>());
@@ -313,7 +315,8 @@ HWY_INLINE typename Mode::Register run(const Mode& mode, const Machine<typename 
       THALWEG_CASES_64(THALWEG_CASE, 0)
 #undef THALWEG_CASE
       default:
-        acc = Mode::load(m.registers + in->operand * Mode::kComponents * lanes_of<T>());
+        if (in->op == Instruction::kLoad)
+          acc = Mode::load(m.registers + in->operand * Mode::kComponents * lanes_of<T>());
     }
     if (in->target != Instruction::kNone) {
       Mode::save(acc, m.registers + in->target * Mode::kComponents * lanes_of<T>());

@@ -69,6 +69,20 @@ using StrategyKernel = void (*)(const Tape& tape, const GradientRule& rule, cons
 using EnclosureKernel = void (*)(const Tape& tape, const float* const* centres, const CellColumns& cells,
                                  std::size_t count, float* lower, float* value, float* scratch);
 
+/// Regions are analysed in multiples of this many.
+inline constexpr std::size_t kRegionLanes = kGradientWidth * 16;
+/// Balls around centres, one entry each; f lies within [lower, upper] over them.
+struct RegionColumns {
+  std::size_t count = 0;
+  std::size_t stride = 0;  ///< count up to whole chunks
+  float* centre[3] = {};
+  float* reach = nullptr;  ///< widened by rounding
+  float* lower = nullptr;
+  float* upper = nullptr;
+};
+/// Records the interval of each instruction's result but loads: [instruction][lo, hi][stride].
+using IntervalKernel = void (*)(const Tape& tape, const RegionColumns& regions, float* record, float* scratch);
+
 struct TriangleTile;
 struct CircleTile;
 struct TileScratch;
@@ -86,6 +100,7 @@ struct Kernels {
   StrategyKernel strategy = nullptr;
   RowsKernel rows = nullptr;
   EnclosureKernel enclosure = nullptr;
+  IntervalKernel intervals = nullptr;
   FinishKernel finish = nullptr;
   TriangleSolver certify_triangles = nullptr;
   CircleSolver certify_circles = nullptr;

@@ -51,6 +51,10 @@ constexpr Exactness weaker(Exactness a, Exactness b) { return a < b ? b : a; }
 /// How the level box of a combining op follows from those of its operands.
 enum class BoundsRule : std::uint8_t { hull, meet, first };
 
+/// The one operand that a combining op returns, bit for bit, where its operands (the second one negated if the op falls
+/// in it) are further apart than the blend's width, which is the first derived constant where the op blends.
+enum class Selection : std::uint8_t { least, greatest };
+
 /// x -> rotation (x scale) + translation; rotation is row-major, orthonormal with determinant 1.
 struct Similarity {
   std::array<double, 9> rotation = {1, 0, 0, 0, 1, 0, 0, 0, 1};

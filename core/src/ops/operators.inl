@@ -33,7 +33,8 @@ HWY_INLINE Field<T, D> smooth_lesser(const Field<T, D>& a, const Field<T, D>& b,
   const auto b_less = b.value < a.value;
   const Point<T, D> least = select(b_less, b.gradient, a.gradient);
   const Point<T, D> other = select(b_less, a.gradient, b.gradient);
-  return {value, least + scaled(other - least, weight)};
+  // Outside of the blend the gradient is the operand's own to the last bit: shortened tapes rely on it.
+  return {value, select(zero<T>() < h, least + scaled(other - least, weight), least)};
 }
 
 inline constexpr std::string_view kSmoothKinds = "quadratic";
@@ -53,6 +54,8 @@ THALWEG_OP {
   static constexpr std::array<OpParameter, 0> kParameters{};
   static constexpr int kTrend[2] = {1, 1};
   static constexpr bool kIdempotent = true;
+  static constexpr Selection kSelection = Selection::least;
+  static constexpr bool kBlends = false;
   static constexpr BoundsRule kBounds = BoundsRule::hull;
   static double widening(Numbers) { return 0; }
   static JoinedFacts join(const Facts& a, const Facts& b, Numbers) {
@@ -73,6 +76,8 @@ THALWEG_OP {
   static constexpr std::array<OpParameter, 0> kParameters{};
   static constexpr int kTrend[2] = {1, 1};
   static constexpr bool kIdempotent = true;
+  static constexpr Selection kSelection = Selection::greatest;
+  static constexpr bool kBlends = false;
   static constexpr BoundsRule kBounds = BoundsRule::meet;
   static double widening(Numbers) { return 0; }
   static JoinedFacts join(const Facts& a, const Facts& b, Numbers) {
@@ -97,6 +102,8 @@ THALWEG_OP {
   static constexpr std::array<OpParameter, 0> kParameters{};
   static constexpr int kTrend[2] = {1, -1};
   static constexpr bool kIdempotent = false;
+  static constexpr Selection kSelection = Selection::greatest;
+  static constexpr bool kBlends = false;
   static constexpr BoundsRule kBounds = BoundsRule::first;
   static double widening(Numbers) { return 0; }
   static JoinedFacts join(const Facts& a, const Facts& b, Numbers) {
@@ -117,6 +124,8 @@ THALWEG_OP {
   THALWEG_SMOOTH_PARAMETERS;
   static constexpr int kTrend[2] = {1, 1};
   static constexpr bool kIdempotent = false;
+  static constexpr Selection kSelection = Selection::least;
+  static constexpr bool kBlends = true;
   static constexpr BoundsRule kBounds = BoundsRule::hull;
   static double widening(Numbers p) { return p[0]; }
   static JoinedFacts join(const Facts& a, const Facts& b, Numbers) {
@@ -139,6 +148,8 @@ THALWEG_OP {
   THALWEG_SMOOTH_PARAMETERS;
   static constexpr int kTrend[2] = {1, 1};
   static constexpr bool kIdempotent = false;
+  static constexpr Selection kSelection = Selection::greatest;
+  static constexpr bool kBlends = true;
   static constexpr BoundsRule kBounds = BoundsRule::meet;
   static double widening(Numbers) { return 0; }
   static JoinedFacts join(const Facts& a, const Facts& b, Numbers) {
@@ -163,6 +174,8 @@ THALWEG_OP {
   THALWEG_SMOOTH_PARAMETERS;
   static constexpr int kTrend[2] = {1, -1};
   static constexpr bool kIdempotent = false;
+  static constexpr Selection kSelection = Selection::greatest;
+  static constexpr bool kBlends = true;
   static constexpr BoundsRule kBounds = BoundsRule::first;
   static double widening(Numbers) { return 0; }
   static JoinedFacts join(const Facts& a, const Facts& b, Numbers) {

@@ -34,6 +34,9 @@ void fill_operator(Entry& entry) {
     entry.bounds_rule = Op::kBounds;
     entry.widening = &Op::widening;
     entry.idempotent = Op::kIdempotent;
+    entry.selection = Op::kSelection;
+    entry.blends = Op::kBlends;
+    entry.second_falls = Op::kTrend[1] < 0;
   } else if constexpr (Op::kDeclaration.kind == OpKind::map) {
     entry.derive = &Op::derive;
     entry.operand_facts = &Op::facts;

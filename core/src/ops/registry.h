@@ -26,6 +26,9 @@ struct Entry {
   BoundsRule bounds_rule = BoundsRule::hull;
   double (*widening)(Numbers) = nullptr;
   bool idempotent = false;  ///< op(a, a) = a
+  Selection selection = Selection::least;
+  bool blends = false;        ///< the first derived constant is the blend's width
+  bool second_falls = false;  ///< in the second operand
 
   JoinedFacts (*operand_facts)(const Facts&, Numbers) = nullptr;  ///< map and warp
   double (*operand_level)(double, Numbers) = nullptr;             ///< map

@@ -145,18 +145,13 @@ void solve(const CircleTile& tile, TileScratch& scratch) {
 }
 
 CollideColumns columns_from(const CollideColumns& columns, std::size_t row, int dimension) {
-  const auto d = static_cast<std::size_t>(dimension);
   CollideColumns moved = columns;
-  const auto move = [row](auto*& column, std::size_t width) {
-    if (column != nullptr) column += row * width;
-  };
-  for (auto** column : {&moved.status, &moved.converged, &moved.claimed, &moved.ambiguous}) move(*column, 1);
-  for (auto** column : {&moved.value, &moved.lower}) move(*column, 1);
-  for (auto** column : {&moved.starts, &moved.iterations, &moved.evaluations}) move(*column, 1);
-  move(moved.point, d);
-  move(moved.normal, d);
-  move(moved.one_sided, 2 * d);
-  move(moved.barycentric, 3);
+  for_each_column(
+      dimension,
+      [row](std::size_t width, auto*& column) {
+        if (column != nullptr) column += row * width;
+      },
+      moved);
   return moved;
 }
 
