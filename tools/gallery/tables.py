@@ -49,24 +49,22 @@ def distances(profile: dict) -> str:
 
 
 def descents(profile: dict) -> str:
-    header = ("method", "strategy", "misses", "of hits", "iterations", "evaluations", "ns", "error p99", "error max")
-    rows = []
-    for d in profile["descents"]:
-        error = d["value_error_in_diagonals"]
-        rows.append(
-            (
-                f"`{d['method']}`",
-                f"`{d['strategy']}`",
-                str(d["misses"]),
-                str(d["hits"]),
-                f"{d['iterations']:.1f}",
-                f"{d['evaluations']:.1f}",
-                f"{d['nanoseconds']:.0f}",
-                number(error["p99"]),
-                number(error["max"]),
-            )
-        )
-    return table(header, rows)
+    """A table for each measure: methods down, strategies across."""
+    rows = profile["descents"]
+    methods = list(dict.fromkeys(row["method"] for row in rows))
+    names = list(dict.fromkeys(row["strategy"] for row in rows))
+    cells = {(row["method"], row["strategy"]): row for row in rows}
+    measures = {
+        f"misses of {rows[0]['hits']} overlaps": lambda d: str(d["misses"]),
+        "p99 error of the value": lambda d: number(d["value_error_in_diagonals"]["p99"]),
+        "iterations": lambda d: f"{d['iterations']:.1f}",
+        "evaluations": lambda d: f"{d['evaluations']:.1f}",
+        "ns a triangle": lambda d: f"{d['nanoseconds']:.0f}",
+    }
+    return "\n".join(
+        table((title, *names), [(f"`{method}`", *(show(cells[method, name]) for name in names)) for method in methods])
+        for title, show in measures.items()
+    )
 
 
 def best_offsets(profiles: dict) -> str:
