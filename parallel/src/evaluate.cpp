@@ -7,10 +7,12 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "gradient/strategies.h"
 #include "gradient/ties.h"
+#include "ordered_rows.h"
 #include "schedule.h"
 #include "solve/arena.h"
 #include "thalweg/batch.h"
@@ -20,6 +22,8 @@ namespace {
 
 /// Points per tile.
 constexpr std::size_t kTile = 4096;
+/// Values cost less than queries do: only tapes from this length on pay for ordering the points.
+constexpr std::size_t kLongTapeForValues = 512;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 const Target& target_of(const Execution& execution) {
@@ -35,13 +39,29 @@ class EvaluateTask final : public TileTask {
 
   void take_gradients_by(const GradientRule& rule) { rule_ = rule; }
 
+  /// Long tapes: points in spatial order. Strategies that probe around a point may leave its tile's region.
+  void order_rows() {
+    if (!in_rows() || tape_.instructions.size() < kLongTapeForValues || points_.count < kOrderedTile ||
+        points_.count >= std::numeric_limits<std::uint32_t>::max()) {
+      return;
+    }
+    order_ = spatial_order(layout(), points_.rows, points_.count);
+  }
+  [[nodiscard]] std::size_t rows_per_task(const Execution& execution) const {
+    if (execution.tile != 0) return execution.tile;
+    return order_.empty() ? kTile : kOrderedTile * kBlockTiles;
+  }
+
   void run(std::size_t begin, std::size_t end, std::size_t index) override {
     std::unique_ptr<Worker>& worker = workers_[index];
     if (worker == nullptr) worker = std::make_unique<Worker>();
     worker->arena.reset();
     worker->summary.rows += end - begin;
-    const bool in_rows = rule_.strategy == Gradient::autodiff || out_.gradient == nullptr;
-    in_rows ? run_rows(begin, end - begin, *worker) : run_columns(begin, end - begin, *worker);
+    if (!order_.empty()) {
+      run_ordered({order_.data() + begin, end - begin}, *worker);
+    } else {
+      in_rows() ? run_rows(begin, end - begin, *worker) : run_columns(begin, end - begin, *worker);
+    }
     if (out_.ambiguous != nullptr || out_.one_sided != nullptr) run_ties(begin, end - begin, worker->arena);
   }
 
@@ -60,6 +80,7 @@ class EvaluateTask final : public TileTask {
   struct Worker {
     Arena arena;
     EvaluateSummary summary;
+    std::unique_ptr<OrderedRows> ordered;
   };
   struct TileColumns {
     float* points[3] = {};
@@ -68,6 +89,33 @@ class EvaluateTask final : public TileTask {
     float* value = nullptr;
     std::uint32_t* evaluations = nullptr;
   };
+
+  [[nodiscard]] bool in_rows() const { return rule_.strategy == Gradient::autodiff || out_.gradient == nullptr; }
+  [[nodiscard]] RowLayout layout() const { return {.dimension = d_, .points = 1, .has_radius = false}; }
+
+  /// Rows of the caller's columns `order` names: a tape for each tile of neighbours.
+  void run_ordered(std::span<const std::uint32_t> order, Worker& worker) const {
+    if (worker.ordered == nullptr) worker.ordered = std::make_unique<OrderedRows>(tape_, layout(), false);
+    OrderedRows& rows = *worker.ordered;
+    rows.take(points_.rows, order, kOrderedTile, *target_.kernels);
+    float* scratch = worker.arena.take<float>(scratch_floats(tape_));
+    float* value = worker.arena.take<float>(kOrderedTile);
+    float* gradient = out_.gradient == nullptr ? nullptr : worker.arena.take<float>(kOrderedTile * d_);
+    for (std::size_t begin = 0; begin < order.size(); begin += kOrderedTile) {
+      const auto own = order.subspan(begin, std::min(kOrderedTile, order.size() - begin));
+      const Tape& tape = rows.tape_of(begin / kOrderedTile);
+      const std::size_t bad_rows =
+          target_.kernels->rows(tape, rows.rows() + begin * d_, own.size(), value, gradient, scratch);
+      worker.summary.bad_rows += bad_rows;
+      worker.summary.evaluations += own.size() - bad_rows;
+      for (std::size_t i = 0; i < own.size(); ++i) {
+        if (out_.value != nullptr) out_.value[own[i]] = value[i];
+        for (std::size_t k = 0; gradient != nullptr && k < d_; ++k)
+          out_.gradient[own[i] * d_ + k] = gradient[i * d_ + k];
+        if (out_.evaluations != nullptr) out_.evaluations[own[i]] = is_bad(own[i]) ? 0 : 1;
+      }
+    }
+  }
 
   void run_rows(std::size_t begin, std::size_t count, Worker& worker) const {
     float* scratch = worker.arena.take<float>(scratch_floats(tape_));
@@ -157,11 +205,13 @@ class EvaluateTask final : public TileTask {
   const Target& target_;
   GradientRule rule_;
   std::size_t d_ = 2;
+  std::vector<std::uint32_t> order_;  ///< empty: the caller's
   std::vector<std::unique_ptr<Worker>> workers_;
 };
 
 EvaluateSummary run(EvaluateTask& task, std::size_t count, const Execution& execution) {
-  const bool complete = schedule(task, count, execution.tile == 0 ? kTile : execution.tile, execution);
+  task.order_rows();
+  const bool complete = schedule(task, count, task.rows_per_task(execution), execution);
   EvaluateSummary summary = task.summary();
   summary.cancelled = !complete;
   return summary;

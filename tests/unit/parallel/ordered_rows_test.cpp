@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -20,10 +21,10 @@ using oracle::Random;
 
 constexpr double kWorld = 1000;
 
-Tape long_tape(int dimension) {
+Tape long_tape(int dimension, int size = 40) {
   Random random(5);
   std::vector<Shape> groups;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < size; ++i) {
     std::vector<Shape> parts;
     for (int k = 0; k < 4; ++k) {
       const auto at = [&] { return random.uniform(0, kWorld); };
@@ -93,6 +94,25 @@ TEST_P(OrderedRows, AreAnsweredAsIfAlone) {
 
 INSTANTIATE_TEST_SUITE_P(Dimensions, OrderedRows,
                          testing::Combine(testing::Values(2, 3), testing::Values(Goal::verdict, Goal::deepest)));
+
+TEST(OrderedPoints, HaveTheValuesAndGradientsOfTheFullTape) {
+  for (const int dimension : {2, 3}) {
+    const auto d = static_cast<std::size_t>(dimension);
+    const Tape tape = long_tape(dimension, 160);
+    ASSERT_GT(tape.instructions.size(), 512U);
+    Random random(2);
+    std::vector<float> rows(4000 * d);
+    for (float& x : rows) x = static_cast<float>(random.uniform(-100, kWorld + 100));
+    rows[5 * d] = std::numeric_limits<float>::quiet_NaN();
+    std::vector<float> value(4000), alone(4000), gradient(rows.size()), gradient_alone(rows.size());
+    EXPECT_EQ(evaluate(tape, rows.data(), 4000, value.data(), gradient.data()), 1U);
+    for (std::size_t i = 0; i < 4000; i += 250) {
+      evaluate(tape, &rows[i * d], 250, &alone[i], &gradient_alone[i * d]);
+    }
+    EXPECT_EQ(std::memcmp(value.data(), alone.data(), value.size() * sizeof(float)), 0);
+    EXPECT_EQ(std::memcmp(gradient.data(), gradient_alone.data(), gradient.size() * sizeof(float)), 0);
+  }
+}
 
 TEST(OrderedRowsOfCircles, KeepBadRowsInTheirPlaces) {
   const Tape tape = long_tape(2);
