@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "random.h"
+#include "solve/pairs/local.h"
 #include "solve/plan.h"
 #include "thalweg/ops.h"
 #include "thalweg/simd.h"
@@ -167,6 +168,36 @@ INSTANTIATE_TEST_SUITE_P(Circles, WarmCircleSolver,
                                          Request{"deepest", Method::certified, Goal::deepest},
                                          Request{"published", Method::published, Goal::verdict}),
                          [](const auto& request) { return std::string(request.param.name); });
+
+TEST(WarmPairSolver, AllocatesNothing) {
+  const Tape tape = std::move(compile(torus(0.35, 0.15))).value();
+  const Tape* const shapes[2] = {&tape, &tape};
+  oracle::Random random(9);
+  std::vector<float> poses;
+  for (std::size_t i = 0; i < 7 * kRows; ++i) poses.push_back(static_cast<float>(random.uniform(-0.5, 0.5)));
+  // Coincident surfaces spend the budget and go on in double.
+  for (std::size_t i = 0; i < 7; ++i) poses[i] = i == 3 ? 1 : 0;
+  const PairQueries queries{shapes, 2, poses.data(), nullptr, kRows};
+  std::vector<std::uint8_t> status(kRows);
+  std::vector<std::uint32_t> found(kRows);
+  for (const Method method : {Method::certified, Method::thesis, Method::midsurface}) {
+    for (const Goal goal : {Goal::verdict, Goal::deepest}) {
+      PairOptions options;
+      options.method = method;
+      options.goal = goal;
+      PairTile tile;
+      tile.queries = &queries;
+      tile.options = &options;
+      tile.kernels = default_target().kernels;
+      tile.count = kRows;
+      tile.columns.status = status.data();
+      if (goal == Goal::deepest) tile.contacts.found = found.data();
+      PairScratch scratch;
+      for (int round = 0; round < 3; ++round) solve(tile, scratch);
+      EXPECT_EQ(allocations_of([&] { solve(tile, scratch); }), 0U) << name(method) << ' ' << name(goal);
+    }
+  }
+}
 
 }  // namespace
 }  // namespace thalweg

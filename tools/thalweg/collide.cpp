@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: The thalweg authors
 // SPDX-License-Identifier: MIT
 //
-// `thalweg collide`: triangles or circles against a scene, one row of every result column for each.
+// `thalweg collide`: triangles, circles or a second scene at many poses against a scene, one row of every result column
+// for each.
 #include <array>
 #include <memory>
 
 #include <fmt/format.h>
 
+#include "collide_pairs.h"
 #include "collide_result.h"
 #include "command.h"
 #include "input.h"
@@ -26,6 +28,7 @@ struct Options {
   CollideOptions collide;
   bool one_sided = false;
   std::uint64_t starts = 0, iterations = 0, budget = CollideOptions().budget;
+  PairRequest pairs;  ///< what only pairs of shapes take
 
   [[nodiscard]] QueryKind kind() const { return triangles.empty() ? QueryKind::circles : QueryKind::triangles; }
 };
@@ -103,7 +106,7 @@ std::string report_text(const Options& options, const Globals& globals, const Ru
 
 void check(const Options& options) {
   if (options.circles.empty() && options.triangles.empty()) {
-    refuse(kCommandLine, "collide", "--circles or --triangles", "neither");
+    refuse(kCommandLine, "collide", "--circles, --triangles, or --with and --poses", "none of them");
   }
   if (!options.circles.empty() && !options.triangles.empty()) {
     refuse(kCommandLine, "collide", "one of --circles and --triangles", "both");
@@ -111,11 +114,37 @@ void check(const Options& options) {
   check_result_name(options.output, 2);
 }
 
+ExitCode run_pairs(const Options& options, const Globals& globals) {
+  if (options.pairs.with.empty() || options.pairs.poses.empty()) {
+    refuse(kCommandLine, options.pairs.with.empty() ? "--poses" : "--with", "--with and --poses together", "one alone");
+  }
+  if (!options.circles.empty() || !options.triangles.empty()) {
+    refuse(kCommandLine, "collide", "one of --circles, --triangles and --with", "more than one");
+  }
+  PairRequest request = options.pairs;
+  static_cast<CollideOptions&>(request.options) = options.collide;
+  request.wants_contacts = request.wants_contacts || options.collide.goal == Goal::deepest;
+  if (request.wants_paths && options.collide.method == Method::certified) {
+    refuse(kCommandLine, "--paths", "a method that descends: thesis, midsurface", "certified");
+  }
+  if (options.one_sided) refuse(kCommandLine, "--one-sided", "--triangles or --circles", "--with");
+  request.scene = options.scene;
+  request.output = options.output;
+  return run_collide_pairs(request, globals);
+}
+
 ExitCode run_collide(Options& options, const Globals& globals) {
-  check(options);
   options.collide.starts = static_cast<std::uint32_t>(options.starts);
   options.collide.iterations = static_cast<std::uint32_t>(options.iterations);
   options.collide.budget = static_cast<std::uint32_t>(options.budget);
+  if (!options.pairs.with.empty() || !options.pairs.poses.empty()) return run_pairs(options, globals);
+  check(options);
+  if (options.pairs.wants_contacts) {
+    refuse(kCommandLine, "--contacts", "--with and --poses", "other queries, for which it is not supported yet");
+  }
+  if (options.pairs.wants_paths || options.pairs.options.region > 0) {
+    refuse(kCommandLine, options.pairs.wants_paths ? "--paths" : "--region", "--with and --poses", "other queries");
+  }
   const Scene scene = read_scene(options.scene);
   const Tape tape = unwrap(compile(scene.shape), input_name(options.scene), "/shape");
   const Array rows = options.kind() == QueryKind::triangles ? read_triangles(options.triangles, scene.dimension)
@@ -133,23 +162,31 @@ ExitCode run_collide(Options& options, const Globals& globals) {
   return ExitCode::done;
 }
 
-void add_unsupported_options(CLI::App& command) {
-  add_unsupported(command, {"--with", "A second scene"});
-  add_unsupported(command, {"--poses", "Poses of the second scene"});
-  add_unsupported(command, {"--contacts", "Several contacts per query"});
+/// Returns the option --contacts.
+CLI::Option* add_pair_options(CLI::App& command, PairRequest& pairs) {
+  command.add_option("--with", pairs.with, "A second scene, placed by --poses");
+  command.add_option("--poses", pairs.poses,
+                     "Poses of the second scene: (N,3) x y angle, (N,7) x y z qw qx qy qz, .npy");
+  add_positive(command,
+               {"--region", "Pairs: overlap regions closer than this may be one contact; default 1/32 of the box"},
+               pairs.options.region);
+  add_flag(command, {"--paths", "Pairs: keep the descent paths of a local method, for render --overlay"},
+           pairs.wants_paths);
+  return add_integer(command, {"--contacts", "Contacts kept per query, deepest first; pairs with goal deepest: 16"},
+                     pairs.contacts, {1, 1U << 16U});
 }
 
 }  // namespace
 
 Command add_collide(CLI::App& app, const Globals& globals) {
   constexpr std::uint64_t kMost = UINT32_MAX;
-  CLI::App* const command = app.add_subcommand("collide", "Triangles or circles against a scene");
+  CLI::App* const command = app.add_subcommand("collide", "Triangles, circles or a second scene against a scene");
   const auto options = std::make_shared<Options>();
   command->add_option("SCENE", options->scene, "Scene file, or - for stdin")->required();
   command->add_option("--circles", options->circles, "Circles (N,3) or spheres (N,4): .npy, .csv, -");
   command->add_option("--triangles", options->triangles, "Triangles (N,3,d): .npy, .csv, .obj, .ply, .stl, -");
   add_output(*command, options->output, ".npz, or - for stdout");
-  add_word(*command, {"--method", "certified (default), descent, thesis, projected, published"},
+  add_word(*command, {"--method", "certified (default), descent, thesis, projected, published, midsurface"},
            options->collide.method, &parse_method);
   add_word(*command, {"--goal", "verdict (default) or deepest"}, options->collide.goal, &parse_goal);
   CLI::Option* const gradient =
@@ -162,8 +199,9 @@ Command add_collide(CLI::App& app, const Globals& globals) {
   add_positive(*command, {"--tolerance", "Scene units; default 1e-4 of the diagonal of the bounds"},
                options->collide.tolerance);
   add_integer(*command, {"--budget", "Evaluations per query, default 4096"}, options->budget, {1, kMost});
-  add_unsupported_options(*command);
-  return {command, [options, gradient, &globals] {
+  CLI::Option* const contacts = add_pair_options(*command, options->pairs);
+  return {command, [options, gradient, contacts, &globals] {
+            options->pairs.wants_contacts = contacts->count() > 0;
             options->collide.gradient_given = gradient->count() > 0;
             return run_collide(*options, globals);
           }};

@@ -57,9 +57,7 @@ class OverlayPainter {
     if (!overlay_.circles.empty()) circle(overlay_.circles.data() + row * (d_ + 1), pen);
   }
 
-  void contact(std::size_t row) {
-    const float* const point = overlay_.point.data() + row * d_;
-    const float* const normal = overlay_.normal.data() + row * d_;
+  void contact(const float* point, const float* normal) {
     if (d_ == 3 && std::fabs(point[2] - view_.slice) * view_.pixels_per_unit() > 2) return;
     const PixelPoint at = pixel(point);
     const PixelPoint tip{at.x + kNormalPixels * normal[0], at.y - kNormalPixels * normal[1]};
@@ -67,6 +65,23 @@ class OverlayPainter {
     canvas_.dot(at, kDotPixels + 1.2, {paper(), 0, 0.9});
     canvas_.line(at, tip, {ink(), 1.4, 1});
     canvas_.dot(at, kDotPixels, {ink(), 0, 1});
+  }
+
+  /// Descent paths, fading from their start to a dot at their end.
+  void paths() {
+    const std::size_t width = overlay_.path_steps * d_;
+    if (width == 0) return;
+    for (std::size_t first = 0; first + width <= overlay_.path.size(); first += width) {
+      const float* const points = overlay_.path.data() + first;
+      std::size_t last = 0;
+      while (last + 1 < overlay_.path_steps && std::isfinite(points[(last + 1) * d_])) ++last;
+      if (!std::isfinite(points[0])) continue;
+      for (std::size_t i = 0; i < last; ++i) {
+        const double strength = 0.25 + 0.75 * static_cast<double>(i + 1) / static_cast<double>(last);
+        canvas_.line(pixel(points + i * d_), pixel(points + (i + 1) * d_), {from_hex(0x6a1bd1), 1.3, strength});
+      }
+      canvas_.dot(pixel(points + last * d_), kDotPixels, {from_hex(0x6a1bd1), 0, 1});
+    }
   }
 
  private:
@@ -129,6 +144,24 @@ Overlay read_overlay(const std::string& path, int dimension) {
   };
   overlay.point = vectors("point");
   overlay.normal = vectors("normal");
+  const auto of_contacts = [&](const std::string& member) {
+    std::optional<std::string> found = archive.member(member);
+    if (!found) return std::vector<float>();
+    return parse_npy_rows(*found, {{overlay.dimension}, "contacts"}, archive.member_name(member)).values;
+  };
+  overlay.contact_point = of_contacts("contact_point");
+  overlay.contact_normal = of_contacts("contact_normal");
+  if (overlay.contact_normal.size() != overlay.contact_point.size()) {
+    refuse(archive.member_name("contact_normal"), "shape", "as many rows as contact_point", "another number");
+  }
+  if (std::optional<std::string> found = archive.member("path")) {
+    Array paths = parse_npy(*found, archive.member_name("path"));
+    if (paths.shape.size() != 4 || paths.shape[3] != overlay.dimension) {
+      refuse(archive.member_name("path"), "shape", fmt::format("(N,S,L,{})", dimension), shape_text(paths.shape));
+    }
+    overlay.path_steps = paths.shape[2];
+    overlay.path = std::move(paths.values);
+  }
   return overlay;
 }
 
@@ -144,8 +177,15 @@ void draw_overlay(Canvas& canvas, const View& view, const Overlay& overlay) {
   for (std::size_t row = 0; row < overlay.status.size(); ++row) {
     if (!has(row, Status::separated) && !has(row, Status::bad_row)) painter.outline(row);
   }
+  painter.paths();
+  const std::size_t d = overlay.dimension;
   for (std::size_t row = 0; row < overlay.status.size(); ++row) {
-    if (has(row, Status::overlapping) || has(row, Status::touching)) painter.contact(row);
+    if (has(row, Status::overlapping) || has(row, Status::touching)) {
+      painter.contact(overlay.point.data() + row * d, overlay.normal.data() + row * d);
+    }
+  }
+  for (std::size_t i = 0; i < overlay.contact_point.size(); i += d) {
+    painter.contact(overlay.contact_point.data() + i, overlay.contact_normal.data() + i);
   }
 }
 

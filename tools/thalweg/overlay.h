@@ -17,10 +17,13 @@ namespace thalweg::cli {
 
 struct Overlay {
   std::size_t dimension = 2;
-  std::vector<std::uint8_t> status;  ///< (N)
-  std::vector<float> point, normal;  ///< (N, d)
-  std::vector<float> triangles;      ///< (N, 3, d), or empty
-  std::vector<float> circles;        ///< (N, d + 1), or empty
+  std::vector<std::uint8_t> status;                  ///< (N)
+  std::vector<float> point, normal;                  ///< (N, d)
+  std::vector<float> triangles;                      ///< (N, 3, d), or empty
+  std::vector<float> circles;                        ///< (N, d + 1), or empty
+  std::vector<float> contact_point, contact_normal;  ///< (M, d) of all rows, or empty
+  std::vector<float> path;                           ///< (N, starts, steps, d), NaN beyond a path's end, or empty
+  std::size_t path_steps = 0;
 };
 
 /// status, point and normal of a result file.

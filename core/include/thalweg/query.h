@@ -22,10 +22,11 @@ enum class Status : std::uint8_t {
 };
 
 enum class Method : std::uint8_t {
-  certified,  ///< branch and bound with proven bounds
-  thesis,     ///< triangles: projected descent as published by Luneau (2025), section 3.2
-  projected,  ///< triangles: barycentric projected descent, Macklin et al. (2020); also `descent`
-  published,  ///< circles: f(centre) < radius, Luneau (2025), section 3.1
+  certified,   ///< branch and bound with proven bounds
+  thesis,      ///< triangles: projected descent as published by Luneau (2025), section 3.2
+  projected,   ///< triangles: barycentric projected descent, Macklin et al. (2020); also `descent`
+  midsurface,  ///< pairs of shapes: MuJoCo's objective from many Halton starts
+  published,   ///< circles: f(centre) < radius, Luneau (2025), section 3.1
 };
 enum class Goal : std::uint8_t { verdict, deepest };
 

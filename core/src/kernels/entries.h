@@ -19,5 +19,6 @@ namespace thalweg {
 [[nodiscard]] FinishKernel finish_entry(std::int64_t target);
 [[nodiscard]] TriangleSolver certify_triangles_entry(std::int64_t target);
 [[nodiscard]] CircleSolver certify_circles_entry(std::int64_t target);
+[[nodiscard]] PairSolver certify_pairs_entry(std::int64_t target);
 
 }  // namespace thalweg

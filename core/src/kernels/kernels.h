@@ -86,6 +86,8 @@ using IntervalKernel = void (*)(const Tape& tape, const RegionColumns& regions, 
 struct TriangleTile;
 struct CircleTile;
 struct TileScratch;
+struct PairTile;
+struct PairScratch;
 struct QueryTile;
 struct QueryState;
 class Arena;
@@ -93,6 +95,7 @@ class Arena;
 using FinishKernel = void (*)(const QueryTile& tile, const QueryState& state, float* scratch, Arena& arena);
 using TriangleSolver = void (*)(const TriangleTile& tile, TileScratch& scratch);
 using CircleSolver = void (*)(const CircleTile& tile, TileScratch& scratch);
+using PairSolver = void (*)(const PairTile& tile, PairScratch& scratch);
 
 struct Kernels {
   ValueKernel value = nullptr;
@@ -104,6 +107,7 @@ struct Kernels {
   FinishKernel finish = nullptr;
   TriangleSolver certify_triangles = nullptr;
   CircleSolver certify_circles = nullptr;
+  PairSolver certify_pairs = nullptr;
 };
 
 }  // namespace thalweg

@@ -20,7 +20,7 @@ Word(const char*, Enum) -> Word<Enum>;
 
 constexpr std::array kMethods = {Word{"certified", Method::certified}, Word{"thesis", Method::thesis},
                                  Word{"projected", Method::projected}, Word{"descent", Method::projected},
-                                 Word{"published", Method::published}};
+                                 Word{"published", Method::published}, Word{"midsurface", Method::midsurface}};
 constexpr std::array kGoals = {Word{"verdict", Goal::verdict}, Word{"deepest", Goal::deepest}};
 constexpr std::array kGradients = {Word{"autodiff", Gradient::autodiff},
                                    Word{"central", Gradient::central},
@@ -107,10 +107,11 @@ double default_tolerance(const Tape& tape) {
 
 Result<SolveLimits> plan(const Tape& tape, QueryKind kind, const CollideOptions& options) {
   const bool triangles = kind == QueryKind::triangles;
-  if (triangles && options.method == Method::published) {
-    return refused("--method", "a method for triangles: certified, thesis, projected", "published");
+  const bool of_pairs = options.method == Method::midsurface;
+  if (triangles && (options.method == Method::published || of_pairs)) {
+    return refused("--method", "a method for triangles: certified, thesis, projected", name(options.method));
   }
-  if (!triangles && (options.method == Method::thesis || options.method == Method::projected)) {
+  if (!triangles && (options.method == Method::thesis || options.method == Method::projected || of_pairs)) {
     return refused("--method", "a method for circles: certified, published", name(options.method));
   }
   if (!std::isfinite(options.tolerance) || options.tolerance < 0) {

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "thalweg/pairs.h"
 #include "thalweg/query.h"
 #include "thalweg/simd.h"
 #include "thalweg/tape.h"
@@ -61,6 +62,15 @@ struct EvaluateSummary {
 /// Circles (2D) or spheres (3D) against the tape's shape.
 [[nodiscard]] Result<Summary> collide_circles(const Tape& tape, Queries circles, const CollideOptions& options,
                                               const CollideColumns& columns, const Execution& execution = {});
+
+/// Shape against shape, one pose a row: `certified`, `thesis` or `midsurface`. `columns` tells of g = max(f_a, f_b),
+/// its `barycentric` is not written; `contacts` of every overlap region, where wanted. With goal `deepest`, or with
+/// contacts, the search goes on to each region's deepest point; apart from that a pair proven apart is done. `lower` is
+/// at most the tolerance for pairs proven apart, and 0 where a field may understate distances. Refuses two unbounded
+/// shapes.
+[[nodiscard]] Result<Summary> collide_pairs(const PairQueries& queries, const PairOptions& options,
+                                            const CollideColumns& columns, const PairContacts& contacts = {},
+                                            const Execution& execution = {}, const PairPaths& paths = {});
 
 /// The tolerance that stands for CollideOptions::tolerance = 0.
 [[nodiscard]] double default_tolerance(const Tape& tape);
