@@ -41,5 +41,6 @@ void refuse(benchmark::State& state, const std::string& why);
 void register_evaluate_cases();
 void register_triangle_cases();
 void register_growth_cases();
+void register_pair_cases();
 
 }  // namespace thalweg::bench
