@@ -109,8 +109,10 @@ class CollideTask final : public TileTask {
     layout_.dimension = static_cast<std::size_t>(tape.dimension);
     layout_.points = std::is_same_v<Tile, TriangleTile> ? 3 : 1;
     layout_.has_radius = !std::is_same_v<Tile, TriangleTile>;
-    // Local methods evaluate outside of the queries, where a tape shortened for them says nothing.
-    if (limits.method == Method::certified && tape.instructions.size() >= kLongTape && queries.count >= kOrderedTile &&
+    // Local methods, and gradients by probes, evaluate outside of the queries, where a tape shortened for them says
+    // nothing.
+    const bool stays_inside = limits.method == Method::certified && limits.normals.strategy == Gradient::autodiff;
+    if (stays_inside && tape.instructions.size() >= kLongTape && queries.count >= kOrderedTile &&
         queries.count < std::numeric_limits<std::uint32_t>::max()) {
       order_ = spatial_order(layout_, queries.rows, queries.count);
     }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "compile/shorten.h"
+#include "gradient/ties.h"
 #include "order.h"
 
 namespace thalweg {
@@ -67,13 +68,16 @@ class OrderedRows {
   [[nodiscard]] Region region_of(const Extent& extent) const {
     Region region;
     double square = 0;
+    float largest = 0;
     for (std::size_t axis = 0; axis < layout_.dimension; ++axis) {
+      largest = std::max({largest, std::fabs(extent.lo[axis]), std::fabs(extent.hi[axis])});
       region.centre[axis] = 0.5F * (extent.lo[axis] + extent.hi[axis]);
       const double half = std::max(static_cast<double>(extent.hi[axis]) - static_cast<double>(region.centre[axis]),
                                    static_cast<double>(region.centre[axis]) - static_cast<double>(extent.lo[axis]));
       square += half * half;
     }
-    region.reach = static_cast<float>(std::sqrt(square) * 1.000001);
+    // Kinks are looked for a little way around the rows.
+    region.reach = static_cast<float>((std::sqrt(square) + static_cast<double>(tie_reach(tape_, largest))) * 1.000001);
     region.cell_reach = asks_bounds_ ? extent.largest_row : 0;
     return region;
   }

@@ -63,10 +63,10 @@ struct Answers {
   bool operator==(const Answers&) const = default;
 };
 
-class OrderedRows : public testing::TestWithParam<std::tuple<int, Goal>> {};
+class OrderedRows : public testing::TestWithParam<std::tuple<int, Goal, Gradient>> {};
 
 TEST_P(OrderedRows, AreAnsweredAsIfAlone) {
-  const auto [dimension, goal] = GetParam();
+  const auto [dimension, goal, gradient] = GetParam();
   const auto d = static_cast<std::size_t>(dimension);
   const std::size_t count = goal == Goal::verdict ? 6000 : 1500;
   const Tape tape = long_tape(dimension);
@@ -80,6 +80,9 @@ TEST_P(OrderedRows, AreAnsweredAsIfAlone) {
   }
   CollideOptions options;
   options.goal = goal;
+  // Probes leave the region that a shortened tape is for.
+  options.gradient = gradient, options.gradient_given = true;
+  options.gradient_offset.absolute = 30;
   Answers alone(count, d);
   for (std::size_t begin = 0; begin < count; begin += 250) {
     ASSERT_TRUE(collide_triangles(tape, {&rows[begin * 3 * d], 250}, options, alone.from(begin, d), {.threads = 1}));
@@ -93,7 +96,8 @@ TEST_P(OrderedRows, AreAnsweredAsIfAlone) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Dimensions, OrderedRows,
-                         testing::Combine(testing::Values(2, 3), testing::Values(Goal::verdict, Goal::deepest)));
+                         testing::Combine(testing::Values(2, 3), testing::Values(Goal::verdict, Goal::deepest),
+                                          testing::Values(Gradient::autodiff, Gradient::central)));
 
 TEST(OrderedPoints, HaveTheValuesAndGradientsOfTheFullTape) {
   for (const int dimension : {2, 3}) {
