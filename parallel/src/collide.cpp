@@ -110,10 +110,10 @@ class CollideTask final : public TileTask {
     layout_.points = std::is_same_v<Tile, TriangleTile> ? 3 : 1;
     layout_.has_radius = !std::is_same_v<Tile, TriangleTile>;
     // Local methods, and gradients by probes, evaluate outside of the queries, where a tape shortened for them says
-    // nothing.
+    // nothing; contacts are written in place.
     const bool stays_inside = limits.method == Method::certified && limits.normals.strategy == Gradient::autodiff;
-    if (stays_inside && tape.instructions.size() >= kLongTape && queries.count >= kOrderedTile &&
-        queries.count < std::numeric_limits<std::uint32_t>::max()) {
+    if (stays_inside && limits.contacts == 0 && tape.instructions.size() >= kLongTape &&
+        queries.count >= kOrderedTile && queries.count < std::numeric_limits<std::uint32_t>::max()) {
       order_ = spatial_order(layout_, queries.rows, queries.count);
     }
   }
@@ -128,7 +128,7 @@ class CollideTask final : public TileTask {
     if (worker == nullptr) worker = std::make_unique<Worker>(tape_);
     if (order_.empty()) {
       answer(tape_, queries_.rows + begin * layout_.width(), end - begin,
-             columns_from(columns_, begin, tape_.dimension), *worker);
+             columns_from(columns_, begin, tape_.dimension, limits_.contacts), *worker);
     } else {
       run_ordered({order_.data() + begin, end - begin}, *worker);
     }

@@ -62,7 +62,7 @@ struct Bench {
   Tape tape;
   SolveLimits limits;
   std::vector<float> rows;
-  std::vector<std::uint8_t> bytes = std::vector<std::uint8_t>(4 * kRows);
+  std::vector<std::uint8_t> bytes = std::vector<std::uint8_t>(5 * kRows);
   std::vector<std::uint32_t> numbers = std::vector<std::uint32_t>(3 * kRows);
   std::vector<float> floats = std::vector<float>(11 * kRows);
 
@@ -106,7 +106,7 @@ struct Bench {
     const auto byte = [&](std::size_t i) { return bytes.data() + i * kRows; };
     const auto number = [&](std::size_t i) { return numbers.data() + i * kRows; };
     made.columns.status = byte(0), made.columns.converged = byte(1);
-    made.columns.claimed = byte(2), made.columns.ambiguous = byte(3);
+    made.columns.claimed = byte(2), made.columns.ambiguous = byte(3), made.columns.stop = byte(4);
     made.columns.starts = number(0), made.columns.iterations = number(1), made.columns.evaluations = number(2);
     made.columns.value = floats.data(), made.columns.lower = floats.data() + kRows;
     made.columns.point = floats.data() + 2 * kRows, made.columns.normal = floats.data() + 5 * kRows;
@@ -134,6 +134,7 @@ class WarmSolver : public testing::TestWithParam<Request> {
     CollideOptions options;
     options.method = GetParam().method, options.goal = GetParam().goal;
     options.budget = 1024;
+    if (kind == QueryKind::triangles) options.contacts = 4, options.margin = 0.1;
     Bench bench(shape, kind, options);
     for (const Target& target : targets()) {
       const Tile tile = bench.tile<Tile>(target);
@@ -155,6 +156,9 @@ INSTANTIATE_TEST_SUITE_P(Triangles, WarmTriangleSolver,
                          testing::Values(Request{"verdict", Method::certified, Goal::verdict},
                                          Request{"deepest", Method::certified, Goal::deepest},
                                          Request{"thesis", Method::thesis, Goal::verdict},
+                                         Request{"accelerated", Method::accelerated, Goal::deepest},
+                                         Request{"frank_wolfe_search", Method::frank_wolfe_search, Goal::verdict},
+                                         Request{"golden_section", Method::golden_section, Goal::verdict},
                                          Request{"projected", Method::projected, Goal::verdict}),
                          [](const auto& request) { return std::string(request.param.name); });
 

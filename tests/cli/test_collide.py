@@ -4,12 +4,15 @@
 
 import json
 import math
+import os
 import random
+import subprocess
 import unittest
 
 import arrays
 from cli_case import THESIS, CliCase
 
+CHECKER = os.environ["THALWEG_CHECK_PROOF"]
 SEPARATED, OVERLAPPING, TOUCHING, UNDECIDED, BAD_ROW = 0, 1, 2, 3, 255
 
 COLUMNS = {
@@ -25,7 +28,21 @@ COLUMNS = {
     "iterations": ("<u4", ()),
     "evaluations": ("<u4", ()),
     "ambiguous": ("|u1", ()),
+    "stop": ("|u1", ()),
 }
+STOP_GOAL, STOP_ITERATIONS, STOP_SMALL_STEP = 1, 3, 4
+
+LOCAL_METHODS = (
+    "accelerated",
+    "thesis",
+    "thesis_fixed",
+    "thesis_scaled",
+    "projected",
+    "frank_wolfe",
+    "frank_wolfe_search",
+    "golden_section",
+    "distance_step",
+)
 
 # Against the circle of radius 2 about the origin.
 TRIANGLES = [
@@ -235,6 +252,10 @@ class Triangles(CollideCase):
             ("--method", "magic"),
             ("--goal", "quickest"),
             ("--gradient", "guess"),
+            ("--start", "anywhere"),
+            ("--step", "0"),
+            ("--floor", "-1"),
+            ("--stop", "little"),
         ]:
             with self.subTest(option=option, value=value):
                 self.assertIn(f": {option}: ", self.refuse(*collide, option, value))
@@ -244,13 +265,35 @@ class Triangles(CollideCase):
         self.refuse("collide", "circle.json", "--triangles", "triangles.npy", "--circles", "x.npy", "-o", "out.npz")
 
     def test_a_local_method_proves_no_separation(self):
-        for method in ("thesis", "projected", "descent"):
+        for method in LOCAL_METHODS + ("descent",):
             with self.subTest(method=method):
                 result = self.collide("--triangles", "triangles.npy", "--method", method)
                 self.assert_columns(result, len(TRIANGLES), 2, triangles=True)
                 self.assertEqual(UNDECIDED, result["status"].numbers[0])
                 self.assertEqual(0, result["claimed"].numbers[0])
                 self.assertEqual(1, result["claimed"].numbers[1])
+
+    def test_the_reason_of_stopping_is_reported(self):
+        certified = self.collide("--triangles", "triangles.npy")
+        self.assertEqual([STOP_GOAL] * len(TRIANGLES), certified["stop"].numbers)
+        thesis = self.collide("--triangles", "triangles.npy", "--method", "thesis")
+        self.assertEqual([STOP_ITERATIONS] * len(TRIANGLES), thesis["stop"].numbers)
+
+    def test_starts_and_rules_of_local_methods_are_options(self):
+        local = ("--triangles", "triangles.npy", "--method", "projected")
+        result = self.collide(*local, "--start", "halton", "--starts", "5", "--iterations", "3")
+        self.assertEqual([5] * len(TRIANGLES), result["starts"].numbers)
+        self.assertTrue(all(n <= 15 for n in result["iterations"].numbers))
+        result = self.collide(*local[:2], "--method", "thesis", "--step", "0.5", "--floor", "2", "--stop", "2")
+        self.assertEqual([1] * len(TRIANGLES), result["iterations"].numbers)
+        self.assertEqual([STOP_SMALL_STEP] * len(TRIANGLES), result["stop"].numbers)
+        line = self.refuse("collide", "circle.json", *local, "--start", "vertices", "--starts", "4", "-o", "out2.npz")
+        self.assertIn(": --starts: expected at most 3 for --start vertices, found 4", line)
+
+    def test_help_lists_every_method(self):
+        text = self.succeed("collide", "--help").stdout.decode()
+        for method in ("certified", "published") + LOCAL_METHODS:
+            self.assertIn(method, text)
 
     def test_threads_do_not_change_the_bytes(self):
         self.scene("thesis.json", THESIS)
@@ -262,6 +305,97 @@ class Triangles(CollideCase):
             self.collide("--triangles", "triangles.npy", "--threads", threads, scene="thesis.json")
             results.add((self.folder / "out.npz").read_bytes())
         self.assertEqual(1, len(results))
+
+
+class Contacts(CollideCase):
+    """Two discs above an edge: the right one is the deeper."""
+
+    def setUp(self):
+        super().setUp()
+        disc = {"op": "circle", "radius": 1}
+        of = [{"op": "translate", "by": [x, y], "of": disc} for x, y in ((0, 0.9), (6, 0.8))]
+        self.scene("discs.json", {"thalweg": 1, "dimension": 2, "shape": {"op": "union", "of": of}})
+        self.save_triangles([(-3, 0, 9, 0, 3, -5), (-3, -9, 9, -9, 3, -12)])
+
+    def contacts(self, *arguments: str) -> dict[str, arrays.Array]:
+        return self.collide("--triangles", "triangles.npy", *arguments, scene="discs.json")
+
+    def test_every_contact_is_listed_deepest_first(self):
+        result = self.contacts("--contacts", "8")
+        self.assertEqual([0, 2, 2], result["contact_offset"].numbers)
+        self.assertEqual([2, 0], result["contact_found"].numbers)
+        self.assertEqual([("<u4", (3,)), ("<u4", (2,)), ("<f4", (2,)), ("<f4", (2, 2)), ("<f4", (2, 2)), ("<f4", (2, 3))],
+                         [(result["contact_" + name].descr, result["contact_" + name].shape)
+                          for name in ("offset", "found", "value", "point", "normal", "barycentric")])
+        for found, expected in zip(result["contact_value"].numbers, (-0.2, -0.1)):
+            self.assertAlmostEqual(expected, found, delta=1e-3)
+        for (x, y), expected in zip(result["contact_point"].rows(), (6, 0)):
+            self.assertAlmostEqual(expected, x, delta=0.05)
+            self.assertAlmostEqual(0, y, delta=1e-5)
+        for x, y in result["contact_normal"].rows():
+            self.assertAlmostEqual(-1, y, delta=1e-2)
+
+    def test_the_cut_is_counted(self):
+        result = self.contacts("--contacts", "1")
+        self.assertEqual([0, 1, 1], result["contact_offset"].numbers)
+        self.assertEqual([2, 0], result["contact_found"].numbers)
+
+    def test_the_margin_reaches_out(self):
+        result = self.contacts("--contacts", "4", "--margin", "9", "--feature", "0.5")
+        self.assertGreaterEqual(result["contact_found"].numbers[1], 1)
+
+    def test_circles_and_counts_that_make_no_sense_are_refused(self):
+        self.save("circles.npy", [4, 0, 1], (1, 3))
+        collide = ("collide", "discs.json", "-o", "out.npz")
+        self.assertIn(": --contacts: ", self.refuse(*collide, "--circles", "circles.npy", "--contacts", "2"))
+        self.assertIn(": --contacts: ", self.refuse(*collide, "--triangles", "triangles.npy", "--contacts", "0"))
+        self.assertIn(": --margin: ", self.refuse(*collide, "--triangles", "triangles.npy", "--margin", "-1"))
+
+
+class Proofs(CollideCase):
+    def setUp(self):
+        super().setUp()
+        self.save_triangles(TRIANGLES)
+
+    def check(self, proof: str) -> subprocess.CompletedProcess:
+        return subprocess.run([CHECKER, "circle.json", proof], cwd=self.folder, capture_output=True, check=False)
+
+    def test_the_proof_of_every_row_is_accepted(self):
+        for row, verdict in enumerate(VERDICTS):
+            with self.subTest(row=row):
+                done = self.succeed("collide", "circle.json", "--triangles", "triangles.npy", "--explain", str(row),
+                                    "-o", "proof.json", "--json")
+                report = json.loads(done.stdout)
+                self.assertEqual(("separated", "overlapping")[verdict], report["status"])
+                proof = json.loads((self.folder / "proof.json").read_text(encoding="utf-8"))
+                self.assertEqual((1, row, report["status"]), (proof["thalweg_proof"], proof["row"], proof["row_status"]))
+                self.assertEqual(0, self.check("proof.json").returncode)
+
+    def test_a_proof_of_a_circle_is_accepted_and_a_forged_one_is_not(self):
+        self.save("circles.npy", [4, 0, 1.9], (1, 3))
+        self.succeed("collide", "circle.json", "--circles", "circles.npy", "--explain", "0", "-o", "proof.json")
+        self.assertEqual(0, self.check("proof.json").returncode)
+        proof = json.loads((self.folder / "proof.json").read_text(encoding="utf-8"))
+        for forge in (lambda p: p["cells"].pop(), lambda p: p.update(radius=2.1), lambda p: p.update(status="overlapping")):
+            forged = json.loads(json.dumps(proof))
+            forge(forged)
+            (self.folder / "forged.json").write_text(json.dumps(forged), encoding="utf-8")
+            done = self.check("forged.json")
+            self.assertEqual(1, done.returncode)
+            self.assertIn(b"expected a proof of", done.stderr)
+
+    def test_a_tolerance_that_nobody_asked_for_is_refused(self):
+        self.save_triangles([(2, -1, 2, 1, 5, 0)])
+        explain = ("collide", "circle.json", "--triangles", "triangles.npy", "--explain", "0", "-o", "proof.json")
+        self.succeed(*explain)
+        self.assertEqual(0, self.check("proof.json").returncode)
+        self.succeed(*explain, "--tolerance", "0.5")
+        self.assertIn(b"the tolerance is not the one asked for", self.check("proof.json").stderr)
+
+    def test_rows_that_are_not_there_are_refused(self):
+        for row in ("6", "-1", "first"):
+            line = self.refuse("collide", "circle.json", "--triangles", "triangles.npy", "--explain", row, "-o", "p.json")
+            self.assertIn(": --explain: ", line)
 
 
 class Circles(CollideCase):

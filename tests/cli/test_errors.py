@@ -75,7 +75,6 @@ class Arguments(CliCase):
     def test_what_is_not_supported_yet_says_so(self):
         collide = ("collide", "circle.json", "-o", "out.npz")
         for arguments in [
-            (*collide, "--triangles", "points.npy", "--contacts", "4"),
             ("collide", "circle.vm", "--triangles", "points.npy", "-o", "out.npz"),
             ("info", "prospero.vm"),
         ]:

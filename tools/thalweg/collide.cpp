@@ -5,12 +5,14 @@
 // for each.
 #include <array>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "collide_pairs.h"
 #include "collide_result.h"
 #include "command.h"
+#include "explain.h"
 #include "input.h"
 #include "npz.h"
 #include "options.h"
@@ -18,6 +20,8 @@
 #include "progress.h"
 #include "queries.h"
 #include "report.h"
+#include "text.h"
+#include "thalweg/method_table.h"
 
 namespace thalweg::cli {
 
@@ -29,6 +33,7 @@ struct Options {
   bool one_sided = false;
   std::uint64_t starts = 0, iterations = 0, budget = CollideOptions().budget;
   PairRequest pairs;  ///< what only pairs of shapes take
+  std::optional<std::uint64_t> explained_row;
 
   [[nodiscard]] QueryKind kind() const { return triangles.empty() ? QueryKind::circles : QueryKind::triangles; }
 };
@@ -111,7 +116,24 @@ void check(const Options& options) {
   if (!options.circles.empty() && !options.triangles.empty()) {
     refuse(kCommandLine, "collide", "one of --circles and --triangles", "both");
   }
-  check_result_name(options.output, 2);
+  if (!options.explained_row) check_result_name(options.output, 2);
+}
+
+/// Writes the proof of one row; the summary is what it proves.
+ExitCode explain(const Tape& tape, const Array& rows, const Options& options, const Globals& globals) {
+  Output output(options.output);
+  const Json proof = explain_row(tape, options.kind(), rows, *options.explained_row, options.collide);
+  output.write(proof.dump(1) + '\n');
+  output.commit();
+  Sheet sheet;
+  sheet.add("row", fmt::format("{}", *options.explained_row));
+  sheet.add("proven", proof["status"].get<std::string>());
+  sheet.add("cells", fmt::format("{}", proof["cells"].size()));
+  const Json report = {
+      {"command", "collide"},      {"explained_row", *options.explained_row}, {"row_status", proof["row_status"]},
+      {"status", proof["status"]}, {"cells", proof["cells"].size()},          {"output", options.output}};
+  print_report(globals, output.is_stdout(), report, sheet.text());
+  return ExitCode::done;
 }
 
 ExitCode run_pairs(const Options& options, const Globals& globals) {
@@ -139,9 +161,7 @@ ExitCode run_collide(Options& options, const Globals& globals) {
   options.collide.budget = static_cast<std::uint32_t>(options.budget);
   if (!options.pairs.with.empty() || !options.pairs.poses.empty()) return run_pairs(options, globals);
   check(options);
-  if (options.pairs.wants_contacts) {
-    refuse(kCommandLine, "--contacts", "--with and --poses", "other queries, for which it is not supported yet");
-  }
+  if (options.pairs.wants_contacts) options.collide.contacts = static_cast<std::uint32_t>(options.pairs.contacts);
   if (options.pairs.wants_paths || options.pairs.options.region > 0) {
     refuse(kCommandLine, options.pairs.wants_paths ? "--paths" : "--region", "--with and --poses", "other queries");
   }
@@ -149,10 +169,12 @@ ExitCode run_collide(Options& options, const Globals& globals) {
   const Tape tape = unwrap(compile(scene.shape), input_name(options.scene), "/shape");
   const Array rows = options.kind() == QueryKind::triangles ? read_triangles(options.triangles, scene.dimension)
                                                             : read_circles(options.circles, scene.dimension);
+  if (options.explained_row) return explain(tape, rows, options, globals);
   Output output(options.output);
-  CollideResult result(options.kind(), rows.shape[0], scene.dimension);
+  CollideResult result(options.kind(), rows.shape[0], scene.dimension, options.collide.contacts);
   if (options.one_sided) result.want_one_sided();
   const Run run = collide(tape, rows, result, options, globals);
+  result.flatten_contacts();
   write_columns(output, options.output, result.list());
   output.commit();
 
@@ -172,8 +194,65 @@ CLI::Option* add_pair_options(CLI::App& command, PairRequest& pairs) {
                pairs.options.region);
   add_flag(command, {"--paths", "Pairs: keep the descent paths of a local method, for render --overlay"},
            pairs.wants_paths);
-  return add_integer(command, {"--contacts", "Contacts kept per query, deepest first; pairs with goal deepest: 16"},
+  return add_integer(command,
+                     {"--contacts", "Contacts kept per triangle or pair, deepest first; pairs with goal deepest: 16"},
                      pairs.contacts, {1, 1U << 16U});
+}
+
+std::string method_names() {
+  std::string names;
+  for (const MethodRow& row : method_table()) {
+    names.append(names.empty() ? "" : ", ").append(row.name);
+    if (!row.alias.empty()) names.append(" or ").append(row.alias);
+    if (row.method == Method::certified) names.append(" (default)");
+  }
+  return names;
+}
+
+/// What the methods do, for the end of `collide --help`.
+std::string method_lines() {
+  std::string lines = "Methods:\n";
+  for (const MethodRow& row : method_table()) {
+    const std::string_view queries = row.method == Method::certified ? "" : row.triangles ? "triangles; " : "circles; ";
+    lines += fmt::format("  {:<19} {}{} [{}]\n", row.name, queries, row.mathematics, row.source);
+  }
+  return lines;
+}
+
+void add_contact_options(CLI::App& command, Options& options) {
+  add_not_negative(command, {"--margin", "Contacts: local minima of f of at most this, scene units; default 0"},
+                   options.collide.margin);
+  add_positive(command, {"--feature", "Contacts closer than this are one; default 1/64 of the diagonal of the bounds"},
+               options.collide.feature);
+}
+
+void add_explain(CLI::App& command, Options& options) {
+  command
+      .add_option_function<std::string>(
+          "--explain",
+          [&options](const std::string& word) {
+            const std::optional<long long> row = parse_integer(word);
+            if (!row || *row < 0) refuse(kCommandLine, "--explain", "a row's number, from 0", in_quotes(word));
+            options.explained_row = static_cast<std::uint64_t>(*row);
+          },
+          "Write the proof of one row's verdict to OUTPUT, as JSON, in place of the columns")
+      ->type_name("ROW");
+}
+
+void add_local_options(CLI::App& command, Options& options) {
+  constexpr std::uint64_t kMost = UINT32_MAX;
+  add_word(command,
+           {"--start", "Local methods: own (default), centroid, vertices, mid_edges, best_of_4, halton, sequence"},
+           options.collide.start, &parse_start);
+  add_integer(command, {"--starts", "Local methods: how many starts of the policy"}, options.starts, {0, kMost});
+  add_integer(command, {"--iterations", "Local methods: most iterations"}, options.iterations, {0, kMost});
+  add_positive(command, {"--step", "alpha of thesis, thesis_fixed, thesis_scaled, distance_step"},
+               options.collide.step);
+  add_not_negative(command, {"--floor", "mu of thesis, thesis_scaled, distance_step; scene units"},
+                   options.collide.floor);
+  add_not_negative(command, {"--stop", "Local methods: end when a step moves the barycentric coordinates by less"},
+                   options.collide.stop);
+  add_flag(command, {"--stop-at-witness", "Local methods: end where f < 0 is proven"}, options.collide.stop_at_witness);
 }
 
 }  // namespace
@@ -186,23 +265,24 @@ Command add_collide(CLI::App& app, const Globals& globals) {
   command->add_option("--circles", options->circles, "Circles (N,3) or spheres (N,4): .npy, .csv, -");
   command->add_option("--triangles", options->triangles, "Triangles (N,3,d): .npy, .csv, .obj, .ply, .stl, -");
   add_output(*command, options->output, ".npz, or - for stdout");
-  add_word(*command, {"--method", "certified (default), descent, thesis, projected, published, midsurface"},
-           options->collide.method, &parse_method);
+  add_word(*command, {"--method", method_names()}, options->collide.method, &parse_method);
   add_word(*command, {"--goal", "verdict (default) or deepest"}, options->collide.goal, &parse_goal);
   CLI::Option* const gradient =
       add_word(*command, {"--gradient", "Strategy of a local method's steps, and of the normals"},
                options->collide.gradient, &parse_gradient);
   add_gradient_offset(*command, options->collide.gradient_offset);
   add_flag(*command, {"--one-sided", "Also `one_sided`: the gradients on two sides of a kink"}, options->one_sided);
-  add_integer(*command, {"--starts", "Starts of a local method"}, options->starts, {0, kMost});
-  add_integer(*command, {"--iterations", "Iterations of a local method"}, options->iterations, {0, kMost});
+  add_local_options(*command, *options);
   add_positive(*command, {"--tolerance", "Scene units; default 1e-4 of the diagonal of the bounds"},
                options->collide.tolerance);
   add_integer(*command, {"--budget", "Evaluations per query, default 4096"}, options->budget, {1, kMost});
   CLI::Option* const contacts = add_pair_options(*command, options->pairs);
+  add_contact_options(*command, *options);
+  add_explain(*command, *options);
+  command->footer(method_lines());
   return {command, [options, gradient, contacts, &globals] {
-            options->pairs.wants_contacts = contacts->count() > 0;
             options->collide.gradient_given = gradient->count() > 0;
+            options->pairs.wants_contacts = contacts->count() > 0;
             return run_collide(*options, globals);
           }};
 }

@@ -57,6 +57,14 @@ CLI::Option* add_positive(CLI::App& app, const OptionText& text, double& target)
   return app.add_option_function<std::string>(text.name, read, text.meaning)->type_name("X");
 }
 
+CLI::Option* add_not_negative(CLI::App& app, const OptionText& text, double& target) {
+  const auto read = [&target, place = text.place()](const std::string& word) {
+    target = finite_number(word, place);
+    if (!(target >= 0)) refuse(kCommandLine, place, "a number of at least 0", in_quotes(word));
+  };
+  return app.add_option_function<std::string>(text.name, read, text.meaning)->type_name("X");
+}
+
 CLI::Option* add_numbers(CLI::App& app, const OptionText& text, std::vector<double>& target, int count) {
   const auto read = [&target, place = text.place()](const std::vector<std::string>& words) {
     target.clear();

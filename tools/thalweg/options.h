@@ -38,6 +38,7 @@ struct IntegerRange {
 CLI::Option* add_flag(CLI::App& app, const OptionText& text, bool& target);
 CLI::Option* add_integer(CLI::App& app, const OptionText& text, std::uint64_t& target, IntegerRange range);
 CLI::Option* add_positive(CLI::App& app, const OptionText& text, double& target);
+CLI::Option* add_not_negative(CLI::App& app, const OptionText& text, double& target);
 /// Exactly `count` finite numbers.
 CLI::Option* add_numbers(CLI::App& app, const OptionText& text, std::vector<double>& target, int count);
 /// A word that the library parses.

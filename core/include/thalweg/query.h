@@ -21,13 +21,37 @@ enum class Status : std::uint8_t {
   bad_row = 255,    ///< a coordinate is not finite, or beyond 1e15 in size
 };
 
+/// What method_table() (thalweg/method_table.h) describes, one row each.
 enum class Method : std::uint8_t {
-  certified,   ///< branch and bound with proven bounds
-  thesis,      ///< triangles: projected descent as published by Luneau (2025), section 3.2
-  projected,   ///< triangles: barycentric projected descent, Macklin et al. (2020); also `descent`
-  midsurface,  ///< pairs of shapes: MuJoCo's objective from many Halton starts
-  published,   ///< circles: f(centre) < radius, Luneau (2025), section 3.1
+  certified,
+  accelerated,
+  thesis,
+  thesis_fixed,
+  thesis_scaled,
+  projected,
+  frank_wolfe,
+  frank_wolfe_search,
+  golden_section,
+  distance_step,
+  published,
+  midsurface,
 };
+
+/// Where local methods over triangles start. `sequence` is centroid, corners, mid-edges, then Halton points.
+enum class Start : std::uint8_t { own, centroid, vertices, mid_edges, best_of_4, halton, sequence };
+
+/// Why a query's search ended; of several starts that of the reported point.
+enum class Stop : std::uint8_t {
+  none = 0,        ///< a bad row
+  goal = 1,        ///< what the goal asks for is proven
+  budget = 2,      ///< the evaluations allowed are spent
+  iterations = 3,  ///< the iterations allowed are spent
+  small_step = 4,  ///< a step moved the barycentric coordinates by less than the stop rule says
+  stationary = 5,  ///< no direction leads down: the gradient vanishes, or the model of f has no lower point
+  witness = 6,     ///< f < 0 is proven, and that was enough
+  excluded = 7,    ///< f(p) - L |x - p| at the points seen leaves no place for a lower one
+};
+
 enum class Goal : std::uint8_t { verdict, deepest };
 
 /// How a gradient is had; see core/docs/gradients.md. The dichotomies exist in 2D only.
@@ -52,9 +76,12 @@ struct ProbeOffset {
 
 [[nodiscard]] std::string_view name(Status status);
 [[nodiscard]] std::string_view name(Method method);
+[[nodiscard]] std::string_view name(Start start);
+[[nodiscard]] std::string_view name(Stop stop);
 [[nodiscard]] std::string_view name(Goal goal);
 [[nodiscard]] std::string_view name(Gradient gradient);
 [[nodiscard]] Result<Method> parse_method(std::string_view text);
+[[nodiscard]] Result<Start> parse_start(std::string_view text);
 [[nodiscard]] Result<Goal> parse_goal(std::string_view text);
 [[nodiscard]] Result<Gradient> parse_gradient(std::string_view text);
 /// `0.005`, `f:0.00025`, `scene:1e-6`, or several of them with commas between; what is not named is 0.
@@ -82,10 +109,29 @@ struct CollideOptions {
   Gradient gradient = Gradient::autodiff;  ///< of the steps of local methods, and of the normals
   bool gradient_given = false;  ///< false: each method its own (`thesis`: dichotomy_verbatim), normals autodiff
   ProbeOffset gradient_offset = {};
-  std::uint32_t starts = 0;      ///< 0: the method's own
+  Start start = Start::own;      ///< of the local methods over triangles
+  std::uint32_t starts = 0;      ///< 0: the policy's or the method's own; with Start::own more give `sequence`
   std::uint32_t iterations = 0;  ///< 0: the method's own
+  double step = 0;               ///< alpha of the thesis' variants and of `distance_step`; 0: the method's own
+  double floor = -1;             ///< mu, least |f| in a step's length, scene units; negative: the method's own
+  double stop = -1;              ///< least move in barycentric coordinates; 0: none; negative: the method's own
+  bool stop_at_witness = false;  ///< local methods end where f < 0 is proven
   double tolerance = 0;          ///< scene units; 0: 1e-4 of the bounds' diagonal, or 1e-4
   std::uint32_t budget = 4096;   ///< evaluations per query
+  std::uint32_t contacts = 0;    ///< triangles: at most so many contacts each; see ContactColumns
+  double margin = 0;             ///< contacts are local minima of f of at most this, scene units
+  double feature = 0;            ///< contacts closer than this are one, scene units; 0: 1/64 of the bounds' diagonal
+};
+
+/// Contacts of triangles: the local minima of f over each, deepest first. Columns have room for K = options.contacts a
+/// row; entries beyond a row's `kept` are left as they are. The evaluations that they took are in the row's.
+struct ContactColumns {
+  std::uint32_t* found = nullptr;  ///< (N): how many there were before the cut to K
+  std::uint32_t* kept = nullptr;   ///< (N): how many follow, at most K
+  float* value = nullptr;          ///< (N,K): f at the point
+  float* point = nullptr;          ///< (N,K,d)
+  float* normal = nullptr;         ///< (N,K,d): unit, out of the shape
+  float* barycentric = nullptr;    ///< (N,K,3)
 };
 
 /// Triangles or circles (2D) / spheres (3D), as rows in C order.
@@ -110,7 +156,9 @@ struct CollideColumns {
   /// The gradient is not unique at `point`: it vanishes there, and the normal is a fixed unit vector, or f has a kink
   /// within rounding. Kinks are not looked for in rows proven separated under Goal::verdict.
   std::uint8_t* ambiguous = nullptr;
-  float* one_sided = nullptr;  ///< (N,2,d): unit gradients on two sides of a kink; elsewhere twice grad f; 0 for none
+  float* one_sided = nullptr;    ///< (N,2,d): unit gradients on two sides of a kink; elsewhere twice grad f; 0 for none
+  std::uint8_t* stop = nullptr;  ///< a Stop
+  ContactColumns contacts;       ///< used when options.contacts is not 0
 };
 
 }  // namespace thalweg

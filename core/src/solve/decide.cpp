@@ -10,6 +10,8 @@
 #include <cmath>
 #include <limits>
 
+#include "solve/record.h"
+
 namespace thalweg {
 namespace {
 
@@ -52,6 +54,9 @@ class Search {
 
   [[nodiscard]] double slack() const { return slack_; }
 
+  /// Keeps every cell that the search ends with, and its bound.
+  void keep_cells(std::vector<HeapCell>& kept) { kept_ = &kept; }
+
   Decision run(const Decision& start, std::uint32_t evaluations) {
     best_ = start;
     best_.evaluations = 0;
@@ -78,6 +83,7 @@ class Search {
     best_.closed = heap_.empty() || satisfied();
     if (!heap_.empty()) best_.lower = std::min(best_.lower, heap_.front().lo);
     best_.lower = std::min(best_.lower, best_.value);
+    if (kept_ != nullptr) kept_->insert(kept_->end(), heap_.begin(), heap_.end());
     return best_;
   }
 
@@ -140,6 +146,7 @@ class Search {
     const bool at_the_end = shape.reach <= slack_ / 4;
     if (is_closed(cell.lo) || at_the_end) {
       best_.lower = std::min(best_.lower, cell.lo);
+      if (kept_ != nullptr) kept_->push_back(cell);
     } else {
       heap_.push_back(cell);
       std::push_heap(heap_.begin(), heap_.end(), higher);
@@ -255,6 +262,7 @@ class Search {
   const SolveLimits& limits_;
   Twin& twin_;
   std::vector<HeapCell>& heap_;
+  std::vector<HeapCell>* kept_ = nullptr;
   Decision best_;
   double slack_ = 0;
   std::uint32_t most_evaluations_ = 0;
@@ -292,6 +300,35 @@ void decide_in_double(const Region64& region, const SolveLimits& limits, QuerySt
   // What is said from here on has double's slack.
   state.slack[q] = static_cast<float>(search.slack() * 1.001);
   state.converged[q] = found.closed || goal_reached(limits, state, q, state.lower[q]) ? 1 : 0;
+}
+
+void record_in_double(const Region64& region, const SolveLimits& limits, std::uint32_t evaluations,
+                      TileScratch& scratch, Proof& proof) {
+  Decision start;
+  std::copy_n(proof.point, region.dimension, start.point);
+  start.u = proof.u;
+  start.v = proof.v;
+  Search search(region, limits, scratch);
+  std::vector<HeapCell> kept;
+  search.keep_cells(kept);
+  const Decision found = search.run(start, evaluations);
+  std::copy_n(found.point, region.dimension, proof.point);
+  proof.u = found.u;
+  proof.v = found.v;
+  proof.value = found.value;
+  proof.evaluations = found.evaluations;
+  proof.lower = std::numeric_limits<double>::infinity();
+  for (const HeapCell& cell : kept) {
+    ProofCell& made = proof.cells.emplace_back();
+    std::copy_n(cell.at, 6, made.at);
+    made.bound = cell.lo;
+    proof.lower = std::min(proof.lower, cell.lo);
+  }
+  const bool brackets = found.value + search.slack() <= limits.tolerance && proof.lower >= -limits.tolerance;
+  proof.status = found.witness     ? Status::overlapping
+                 : proof.lower > 0 ? Status::separated
+                 : brackets        ? Status::touching
+                                   : Status::undecided;
 }
 
 }  // namespace thalweg

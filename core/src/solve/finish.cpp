@@ -114,10 +114,18 @@ void write_numbers(const QueryTile& tile, const QueryState& s, const uint32_t* f
   for (size_t q = 0; q < tile.count; ++q) to[q] = s.is_bad[q] == 0 ? from[q] : 0;
 }
 
+HWY_INLINE uint8_t stop_of(const QueryState& s, size_t q) {
+  if (s.stop != nullptr) return s.stop[q];
+  return static_cast<uint8_t>(s.converged[q] > 0 ? Stop::goal : Stop::budget);
+}
+
 void write_counts(const QueryTile& tile, const QueryState& s) {
   const CollideColumns& out = tile.columns;
   write_numbers(tile, s, s.iterations, out.iterations);
   write_numbers(tile, s, s.evaluations, out.evaluations);
+  for (size_t q = 0; q < tile.count && out.stop != nullptr; ++q) {
+    out.stop[q] = s.is_bad[q] == 0 ? stop_of(s, q) : static_cast<uint8_t>(Stop::none);
+  }
   if (out.starts == nullptr) return;
   for (size_t q = 0; q < tile.count; ++q) out.starts[q] = s.is_bad[q] == 0 ? tile.limits->starts : 0;
 }

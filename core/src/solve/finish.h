@@ -17,6 +17,7 @@ struct QueryState {
   float* barycentric[2] = {};  ///< of the second and third corner; triangles only
   std::uint32_t* evaluations = nullptr;
   std::uint32_t* iterations = nullptr;
+  std::uint8_t* stop = nullptr;  ///< Stop of local methods; null: it follows from `converged`
   // Flags are 1 or 0, as floats: they meet masks of float lanes.
   float* witness = nullptr;    ///< f < 0 is proven at the point
   float* converged = nullptr;  ///< the goal was reached

@@ -16,7 +16,7 @@ enum class QueryKind : std::uint8_t { triangles, circles };
 void solve(const TriangleTile& tile, TileScratch& scratch);
 void solve(const CircleTile& tile, TileScratch& scratch);
 
-/// Calls `visit(width, columns.c...)` for every column c, with its numbers per row.
+/// Calls `visit(width, columns.c...)` for every column c but those of contacts, with its numbers per row.
 template <class Visit, class... Columns>
 void for_each_column(int dimension, Visit&& visit, Columns&... columns) {
   const auto d = static_cast<std::size_t>(dimension);
@@ -33,9 +33,11 @@ void for_each_column(int dimension, Visit&& visit, Columns&... columns) {
   visit(std::size_t{1}, columns.evaluations...);
   visit(std::size_t{1}, columns.ambiguous...);
   visit(2 * d, columns.one_sided...);
+  visit(std::size_t{1}, columns.stop...);
 }
 
 /// The part of the columns that begins at a row.
-[[nodiscard]] CollideColumns columns_from(const CollideColumns& columns, std::size_t row, int dimension);
+[[nodiscard]] CollideColumns columns_from(const CollideColumns& columns, std::size_t row, int dimension,
+                                          std::uint32_t contacts = 0);
 
 }  // namespace thalweg

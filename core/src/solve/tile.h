@@ -20,10 +20,18 @@ struct SolveLimits {
   Method method = Method::certified;
   GradientRule gradient;  ///< of the steps of a local method
   GradientRule normals;   ///< of the normal of the final point
+  Start start = Start::centroid;
   std::uint32_t starts = 1;
   std::uint32_t iterations = 1;
   std::uint32_t budget = 4096;
   double tolerance = 1e-4;
+  double step = 0;   ///< alpha
+  double floor = 0;  ///< mu
+  double stop = 0;   ///< least move in barycentric coordinates
+  bool stop_at_witness = false;
+  std::uint32_t contacts = 0;
+  double margin = 0;
+  double feature = 0;
   Affine slack;    ///< of a float32 evaluation in a search: rounding of values, centres and bounds
   Affine slack64;  ///< the same in double
 };

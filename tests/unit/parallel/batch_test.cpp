@@ -10,6 +10,7 @@
 #include <limits>
 #include <vector>
 
+#include "thalweg/method_table.h"
 #include "thalweg/ops.h"
 
 namespace thalweg {
@@ -26,6 +27,7 @@ struct Columns {
         converged(n, 77),
         claimed(n, 77),
         ambiguous(n, 77),
+        stop(n, 77),
         starts(n, 77),
         iterations(n, 77),
         evaluations(n, 77),
@@ -35,10 +37,11 @@ struct Columns {
         normal(n * d, 77),
         barycentric(3 * n, 77) {}
   CollideColumns all() {
-    return {status.data(),      value.data(),   lower.data(),  converged.data(),  point.data(),       normal.data(),
-            barycentric.data(), claimed.data(), starts.data(), iterations.data(), evaluations.data(), ambiguous.data()};
+    return {status.data(),      value.data(),       lower.data(),   converged.data(), point.data(),
+            normal.data(),      barycentric.data(), claimed.data(), starts.data(),    iterations.data(),
+            evaluations.data(), ambiguous.data(),   nullptr,        stop.data(),      {}};
   }
-  std::vector<std::uint8_t> status, converged, claimed, ambiguous;
+  std::vector<std::uint8_t> status, converged, claimed, ambiguous, stop;
   std::vector<std::uint32_t> starts, iterations, evaluations;
   std::vector<float> value, lower, point, normal, barycentric;
 };
@@ -66,7 +69,9 @@ TEST(Batch, CountsWhatNobodyAskedFor) {
 TEST(BadRow, HasNanInEveryFloatColumnAndStatus255WhileTheOthersAreAnswered) {
   const Tape tape = tape_of(circle(1));
   const float bad[] = {kNan, kInfinity, -kInfinity, 1.01e15F, -3e38F};
-  for (const Method method : {Method::certified, Method::thesis, Method::projected}) {
+  for (const MethodRow& row_of_method : method_table()) {
+    const Method method = row_of_method.method;
+    if (!row_of_method.triangles) continue;
     std::vector<float> rows;
     for (std::size_t i = 0; i < 5; ++i) {
       std::vector<float> row = {0, 0, 0.1F, 0, 0, 0.1F};
@@ -88,6 +93,7 @@ TEST(BadRow, HasNanInEveryFloatColumnAndStatus255WhileTheOthersAreAnswered) {
       }
       EXPECT_EQ(c.converged[i], 0);
       EXPECT_EQ(c.claimed[i], 0);
+      EXPECT_EQ(c.stop[i], 0);
       EXPECT_EQ(c.evaluations[i], 0U);
       EXPECT_EQ(c.status[i + 1], 1) << name(method);
       EXPECT_FALSE(std::isnan(c.value[i + 1]));
@@ -165,10 +171,15 @@ TEST(Normal, IsAFixedUnitVectorMarkedAmbiguousWhereTheGradientVanishes) {
 TEST(LocalMethods, ProveNothingApartButSayTheirOpinion) {
   const Tape tape = tape_of(circle(1));
   const std::vector<float> rows = {3, 0, 4, 0, 3, 1, 0, 0, 0.1F, 0, 0, 0.1F};
-  for (const Method method : {Method::thesis, Method::projected}) {
+  for (const MethodRow& row : method_table()) {
+    const Method method = row.method;
+    if (row.proves || !row.triangles) continue;
     Columns c(2, 2);
     CollideOptions options;
     options.method = method;
+    // A verdict asks for no more than its own certainty.
+    options.goal = Goal::deepest;
+    if (method == Method::thesis_scaled) options.step = 0.5;
     ASSERT_TRUE(collide_triangles(tape, {rows.data(), 2}, options, c.all()));
     EXPECT_EQ(c.status, (std::vector<std::uint8_t>{3, 1})) << name(method);
     EXPECT_EQ(c.claimed, (std::vector<std::uint8_t>{0, 1})) << name(method);

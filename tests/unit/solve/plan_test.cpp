@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "thalweg/batch.h"
+#include "thalweg/method_table.h"
 #include "thalweg/ops.h"
 
 namespace thalweg {
@@ -36,9 +37,15 @@ TEST(Plan, FillsInWhatEachMethodTakes) {
   EXPECT_EQ(thesis.gradient.strategy, Gradient::dichotomy_verbatim);
   EXPECT_EQ(thesis.iterations, 64U);
   EXPECT_EQ(thesis.starts, 1U);
+  EXPECT_EQ(thesis.step, 0.1);
+  EXPECT_EQ(thesis.floor, 100);
+  EXPECT_EQ(thesis.stop, 0);
   const SolveLimits projected = plan_of(Method::projected, QueryKind::triangles);
   EXPECT_EQ(projected.iterations, 16U);
   EXPECT_EQ(projected.gradient.strategy, Gradient::autodiff);
+  EXPECT_EQ(projected.start, Start::best_of_4);
+  EXPECT_EQ(projected.stop, 1e-3);
+  EXPECT_EQ(plan_of(Method::golden_section, QueryKind::triangles).starts, 3U);
 }
 
 TEST(Plan, KeepsWhatTheCallerSays) {
@@ -46,12 +53,18 @@ TEST(Plan, KeepsWhatTheCallerSays) {
   options.method = Method::projected;
   options.gradient = Gradient::simplex, options.gradient_given = true;
   options.starts = 5, options.iterations = 9, options.budget = 77, options.tolerance = 0.25;
+  options.floor = 0, options.stop = 0.5, options.step = 2, options.stop_at_witness = true;
   const SolveLimits limits = *plan(solid(), QueryKind::triangles, options);
   EXPECT_EQ(limits.gradient.strategy, Gradient::simplex);
   EXPECT_EQ(limits.starts, 5U);
   EXPECT_EQ(limits.iterations, 9U);
   EXPECT_EQ(limits.budget, 77U);
   EXPECT_EQ(limits.tolerance, 0.25);
+  EXPECT_EQ(limits.start, Start::sequence);
+  EXPECT_EQ(limits.floor, 0);
+  EXPECT_EQ(limits.stop, 0.5);
+  EXPECT_EQ(limits.step, 2);
+  EXPECT_TRUE(limits.stop_at_witness);
 }
 
 TEST(Plan, TakesTheToleranceFromFiniteBounds) {
@@ -80,10 +93,43 @@ TEST(Plan, RefusesMethodsThatDoNotFitTheQuery) {
   options.method = Method::published;
   EXPECT_EQ(refused(flat(), QueryKind::triangles, options), "--method");
   EXPECT_EQ(refused(flat(), QueryKind::circles, options), "");
-  for (const Method method : {Method::thesis, Method::projected}) {
-    options.method = method;
-    EXPECT_EQ(refused(flat(), QueryKind::circles, options), "--method");
-    EXPECT_EQ(refused(flat(), QueryKind::triangles, options), "");
+  for (const MethodRow& row : method_table()) {
+    options.method = row.method;
+    const bool both = row.method == Method::certified;
+    EXPECT_EQ(refused(flat(), QueryKind::circles, options), both || !row.triangles ? "" : "--method") << row.name;
+    EXPECT_EQ(refused(flat(), QueryKind::triangles, options), row.triangles ? "" : "--method") << row.name;
+  }
+}
+
+TEST(Plan, RefusesStartsAndRulesThatMakeNoSense) {
+  CollideOptions options;
+  options.method = Method::projected;
+  options.start = Start::vertices, options.starts = 4;
+  EXPECT_EQ(refused(flat(), QueryKind::triangles, options), "--starts");
+  options.start = Start::halton, options.starts = 400;
+  EXPECT_EQ(refused(flat(), QueryKind::triangles, options), "");
+  options.method = Method::golden_section;
+  EXPECT_EQ(refused(flat(), QueryKind::triangles, options), "--start");
+  options = {};
+  options.method = Method::thesis, options.step = -1;
+  EXPECT_EQ(refused(flat(), QueryKind::triangles, options), "--step");
+  options = {};
+  options.method = Method::thesis, options.budget = 12;
+  EXPECT_EQ(refused(flat(), QueryKind::triangles, options), "--budget");
+  options = {};
+  options.margin = -1;
+  EXPECT_EQ(refused(flat(), QueryKind::triangles, options), "--margin");
+}
+
+TEST(MethodTable, SaysOfEveryMethodWhatItDoesAndWhereItComesFrom) {
+  for (const MethodRow& row : method_table()) {
+    EXPECT_FALSE(row.name.empty());
+    EXPECT_FALSE(row.mathematics.empty()) << row.name;
+    EXPECT_FALSE(row.source.empty()) << row.name;
+    EXPECT_EQ(&method_row(row.method), &row);
+    EXPECT_EQ(*parse_method(row.name), row.method);
+    if (row.alias.empty()) continue;
+    EXPECT_EQ(*parse_method(row.alias), row.method);
   }
 }
 
@@ -109,8 +155,9 @@ TEST(Plan, RefusesTolerancesAndBudgetsThatMakeNoSense) {
 }
 
 TEST(Words, OfMethodsGoalsAndGradientsReadBack) {
-  for (const Method m : {Method::certified, Method::thesis, Method::projected, Method::published}) {
-    EXPECT_EQ(*parse_method(name(m)), m);
+  for (const Start s : {Start::own, Start::centroid, Start::vertices, Start::mid_edges, Start::best_of_4, Start::halton,
+                        Start::sequence}) {
+    EXPECT_EQ(*parse_start(name(s)), s);
   }
   EXPECT_EQ(*parse_method("descent"), Method::projected);
   for (const Goal goal : {Goal::verdict, Goal::deepest}) EXPECT_EQ(*parse_goal(name(goal)), goal);

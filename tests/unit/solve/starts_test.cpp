@@ -44,5 +44,18 @@ TEST(StartPoint, SpreadsEvenlyFromTheEighthOn) {
   for (const int count : hits) EXPECT_NEAR(count, 100, 20);
 }
 
+TEST(StartPolicies, ArePartsOfTheSequence) {
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(distance(start_point(Start::vertices, i), start_point(1 + i)), 0);
+    EXPECT_EQ(distance(start_point(Start::mid_edges, i), start_point(4 + i)), 0);
+    EXPECT_EQ(distance(start_point(Start::halton, i), start_point(7 + i)), 0);
+    EXPECT_EQ(distance(start_point(Start::sequence, i), start_point(i)), 0);
+  }
+  EXPECT_EQ(distance(start_point(Start::centroid, 0), start_point(0)), 0);
+  EXPECT_EQ(most_starts(Start::vertices), 3U);
+  EXPECT_EQ(most_starts(Start::centroid), 1U);
+  EXPECT_GT(most_starts(Start::halton), 1'000'000U);
+}
+
 }  // namespace
 }  // namespace thalweg
