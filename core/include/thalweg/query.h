@@ -158,7 +158,7 @@ struct CollideColumns {
   std::uint8_t* ambiguous = nullptr;
   float* one_sided = nullptr;    ///< (N,2,d): unit gradients on two sides of a kink; elsewhere twice grad f; 0 for none
   std::uint8_t* stop = nullptr;  ///< a Stop
-  ContactColumns contacts;       ///< used when options.contacts is not 0
+  ContactColumns contacts = {};  ///< used when options.contacts is not 0
 };
 
 }  // namespace thalweg
