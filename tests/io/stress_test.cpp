@@ -75,8 +75,8 @@ TEST(StressWorkload, AnswersWithEveryColumnWhateverTheDimension) {
               500U * 2 * static_cast<std::size_t>(shape.dimension()));
     EXPECT_EQ(work.admits(Gradient::dichotomy), shape.dimension() == 2);
     const std::size_t d = static_cast<std::size_t>(shape.dimension());
-    // Corners; status, converged, claimed, ambiguous; value, lower, point, normal, barycentric; three counters.
-    EXPECT_EQ(work.bytes_per_triangle(), 4 * 3 * d + 4 + 4 * (2 + 2 * d + 3) + 12);
+    // Corners; status, converged, claimed, ambiguous, stop; value, lower, point, normal, barycentric; three counters.
+    EXPECT_EQ(work.bytes_per_triangle(), 4 * 3 * d + 5 + 4 * (2 + 2 * d + 3) + 12);
   }
 }
 
