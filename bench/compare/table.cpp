@@ -87,7 +87,7 @@ std::string Totals::who_beats_accelerated() const {
   std::string names;
   for (std::size_t i = 0; i < sums_.size(); ++i) {
     if (contenders_[i].is_ours) continue;
-    if (sums_[i].misses <= misses && sums_[i].evaluations <= evaluations) {
+    if (sums_[i].misses < misses || sums_[i].evaluations <= evaluations) {
       names.append(names.empty() ? "" : ", ").append(contenders_[i].name);
     }
   }

@@ -19,8 +19,8 @@ class Totals {
  public:
   void add(const std::vector<Contender>& all, const std::vector<Measurement>& measured);
   [[nodiscard]] std::string table() const;
-  /// Published methods with neither more misses nor more evaluations than `accelerated` for the same triangles; its
-  /// worse goal counts.
+  /// Published methods with fewer misses or no more evaluations than `accelerated` for the same triangles; its worse
+  /// goal counts.
   [[nodiscard]] std::string who_beats_accelerated() const;
 
  private:

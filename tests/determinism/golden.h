@@ -35,6 +35,12 @@ inline constexpr Golden kGolden[] = {
     {"triangles2_thesis", 0x93930670b1a7ba0e, 0x3ad64def9a7af8d7},  // libm
     {"triangles2_projected", 0x593dd47312eaf9eb, 0x8d910f2cfaab35f3},
     {"triangles3_projected", 0xe2eccaa4ad3e56cb, 0x63b4e75fa7f8fbc9},
+    {"triangles2_accelerated", 0x952d91d174667131, 0xf406c95b96e08c0b},
+    {"triangles3_accelerated", 0x8b164b679bc7486a, 0x3b5b9f073cb5b91e},
+    {"triangles2_frank_wolfe", 0xa53d64d53b130c55, 0x51e9fbac17f53f70},
+    {"triangles3_frank_wolfe_search", 0xd46cf33e3b3aaeff, 0xc7279a0c10f50721},
+    {"triangles2_golden_section", 0xab4eb032ece9be6c, 0x09d9c1c85c161c26},
+    {"triangles3_distance_step", 0x5a17fc579e1b96b9, 0x23095720814d1d55},
     {"eval2_autodiff", 0x1b4511cee599fe3d, 0xa7bf7738bef428e5},
     {"eval3_autodiff", 0x35054dcabeb7ab9a, 0xbea6b7e8fe0856e5},
     {"eval2_central", 0x7e03138e9c1e26f6, 0x64988fe56363e011},

@@ -136,7 +136,7 @@ Workload::Workload(std::string_view name) {
     gradient_ = *parse_gradient(rest);
     rows_ = points(random, d, count_ *= 2);
   } else if (name.starts_with("triangles")) {
-    if (rest == "thesis" || rest == "projected") options_.method = *parse_method(rest);
+    if (const auto method = parse_method(rest)) options_.method = *method;
     if (rest == "thesis") count_ = 400;
     rows_ = triangles(random, d, count_);
   } else {

@@ -28,6 +28,8 @@ constexpr std::uint32_t kPlaces = (kLattice + 1) * (kLattice + 2) / 2;
 constexpr float kTangentShare = 0.55F;
 /// How far around a place, in steps of the lattice, f must be proven positive.
 constexpr float kAround = 0.7F;
+/// A deepest point is looked for where it is expected to be lower by this share of the longest edge.
+constexpr float kLeastGain = 0.04F;
 /// Points closer than this share of the longest edge are the same.
 constexpr float kSamePoint = 1e-2F;
 
@@ -44,6 +46,7 @@ class Accelerated {
     std::uint32_t count;
     std::uint32_t basin;      ///< first sample of the basin
     std::uint32_t best;       ///< the lowest sample of all
+    std::uint32_t learned;    ///< samples that the places know of
     float uu, uv, vv;         ///< squared lengths: |du e1 + dv e2|^2 = uu du^2 + 2 uv du dv + vv dv^2
     float proven[kPlaces];    ///< lower bound of f at each place, from all samples
     float expected[kPlaces];  ///< what is likely there
@@ -66,7 +69,7 @@ class Accelerated {
   }
 
   [[nodiscard]] static Barycentric begin(const LaneView& lane, Memory& m) {
-    m.count = m.basin = m.best = 0;
+    m.count = m.basin = m.best = m.learned = 0;
     std::fill_n(m.proven, kPlaces, -std::numeric_limits<float>::infinity());
     std::fill_n(m.expected, kPlaces, -std::numeric_limits<float>::infinity());
     m.uu = m.uv = m.vv = 0;
@@ -86,7 +89,6 @@ class Accelerated {
   Stop step(const LaneView& lane, std::uint32_t, Memory& m, Barycentric& next) const {
     if (wants_verdict_ && lane.value < -lane.slack) return Stop::witness;
     m.samples[m.count] = {lane.at.b, lane.at.c, lane.value, lane.slope_along(1), lane.slope_along(2)};
-    learn(m, m.samples[m.count]);
     if (lane.value < m.samples[m.best].f) m.best = m.count;
     if (++m.count == kMostSamples) return Stop::iterations;
     if (descend_in_basin(m, next) || enter_basin(m, next) || polish(m, next)) return Stop::none;
@@ -162,10 +164,13 @@ class Accelerated {
   /// As long as nothing negative is known, a place counts when f is not proven positive around it; then only when
   /// something lower is likely there.
   bool enter_basin(Memory& m, Barycentric& next) const {
+    while (m.learned < m.count) learn(m, m.samples[m.learned++]);
+    const float longest = std::sqrt(std::max(m.uu, m.vv));
     const bool sign_is_open = m.samples[m.best].f > 0;
-    const float around = kAround * lipschitz_ * std::sqrt(std::max(m.uu, m.vv)) / kLattice;
+    const float around = kAround * lipschitz_ * longest / kLattice;
+    const float gain = std::max(tolerance_, kLeastGain * lipschitz_ * longest);
     const bool found = (sign_is_open && choose_place(m, m.proven, around, next)) ||
-                       (!wants_verdict_ && choose_place(m, m.expected, m.samples[m.best].f - tolerance_, next));
+                       (!wants_verdict_ && choose_place(m, m.expected, m.samples[m.best].f - gain, next));
     m.basin = m.count;
     return found;
   }
