@@ -30,7 +30,7 @@ COLUMNS = {
     "ambiguous": ("|u1", ()),
     "stop": ("|u1", ()),
 }
-STOP_GOAL, STOP_ITERATIONS, STOP_SMALL_STEP = 1, 3, 4
+STOP_GOAL, STOP_BUDGET, STOP_ITERATIONS, STOP_SMALL_STEP = 1, 2, 3, 4
 
 LOCAL_METHODS = (
     "accelerated",
@@ -260,6 +260,41 @@ class Triangles(CollideCase):
             with self.subTest(option=option, value=value):
                 self.assertIn(f": {option}: ", self.refuse(*collide, option, value))
 
+    def test_options_that_the_queries_do_not_take_are_refused(self):
+        self.save("circles.npy", [4, 0, 1], (1, 3))
+        self.save("poses.npy", [4, 0, 1], (1, 3))
+        queries = {
+            "--triangles": ("--triangles", "triangles.npy"),
+            "--circles": ("--circles", "circles.npy"),
+            "--with": ("--with", "circle.json", "--poses", "poses.npy"),
+        }
+        for asked, option in [
+            ("--circles", ("--start", "halton")),
+            ("--circles", ("--starts", "4")),
+            ("--circles", ("--iterations", "4")),
+            ("--circles", ("--stop-at-witness",)),
+            ("--circles", ("--margin", "1")),
+            ("--circles", ("--feature", "1")),
+            ("--with", ("--explain", "0")),
+            ("--with", ("--one-sided",)),
+            ("--with", ("--step", "1")),
+            ("--with", ("--floor", "1")),
+            ("--with", ("--stop", "1")),
+            ("--triangles", ("--region", "1")),
+            ("--triangles", ("--paths",)),
+        ]:
+            with self.subTest(asked=asked, option=option):
+                line = self.refuse("collide", "circle.json", *queries[asked], *option, "-o", "out.npz")
+                self.assertRegex(line, rf": {option[0]}: expected --.*, found {asked}\n")
+
+    def test_a_row_that_double_cannot_tell_has_not_converged(self):
+        self.save_triangles([(-1e15, -1e15, 1e15, -1e15, 0, 1e15)])
+        for goal in ("verdict", "deepest"):
+            result = self.collide("--triangles", "triangles.npy", "--goal", goal)
+            self.assertEqual([UNDECIDED], result["status"].numbers)
+            self.assertEqual([0], result["converged"].numbers)
+            self.assertEqual([STOP_BUDGET], result["stop"].numbers)
+
     def test_exactly_one_kind_of_query_is_asked(self):
         self.refuse("collide", "circle.json", "-o", "out.npz")
         self.refuse("collide", "circle.json", "--triangles", "triangles.npy", "--circles", "x.npy", "-o", "out.npz")
@@ -290,8 +325,10 @@ class Triangles(CollideCase):
         line = self.refuse("collide", "circle.json", *local, "--start", "vertices", "--starts", "4", "-o", "out2.npz")
         self.assertIn(": --starts: expected at most 3 for --start vertices, found 4", line)
 
-    def test_help_lists_every_method(self):
+    def test_help_lists_every_method_and_the_global_options(self):
         text = self.succeed("collide", "--help").stdout.decode()
+        self.assertIn("--threads, --isa, --seed, --json, --quiet", text)
+        self.assertRegex(text, r"midsurface +pairs; ")
         for method in ("certified", "published") + LOCAL_METHODS:
             self.assertIn(method, text)
 

@@ -61,6 +61,17 @@ class Stress(CliCase):
         self.assertEqual(b"thalweg: command line: --plots: expected gnuplot on the PATH, found none\n", done.stderr)
         self.assertFalse((self.folder / "plots").exists())
 
+    def test_half_a_picture_is_a_failure_and_does_not_stay(self):
+        """gnuplot says nothing when the disk is full."""
+        gnuplot = self.folder / "gnuplot"
+        gnuplot.write_text("#!/bin/sh\nprintf '\\211PNG' > .stress-batch.png\n", encoding="utf-8")
+        gnuplot.chmod(0o755)
+        environment = {**os.environ, "PATH": f"{self.folder}:{os.environ['PATH']}"}
+        done = self.run_program("stress", "circle.json", *QUICK, "--plots", "plots", env=environment)
+        self.assertEqual(2, done.returncode)
+        self.assertIn(b"expected a picture, found a picture that is not whole", done.stderr)
+        self.assertFalse([path.name for path in (self.folder / "plots").iterdir() if path.suffix == ".png"])
+
     def test_counts_are_checked(self):
         self.assertIn("--count", self.refuse("stress", "circle.json", "--count", "0"))
         self.assertIn("--rounds", self.refuse("stress", "circle.json", "--rounds", "x"))

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-SKIPPED_FOLDERS = {"build", "out", ".git", ".cache", ".vscode", ".idea", "__pycache__"}
+# `.git` is a file in a worktree.
+SKIPPED = {"build", "out", ".git", ".cache", ".vscode", ".idea", "__pycache__"}
 CPP_SUFFIXES = {".h", ".cpp", ".inl"}
 
 
@@ -61,10 +62,10 @@ def files(root: Path) -> list[SourceFile]:
     """Every text file below root, in a fixed order. Binary files (a NUL byte early on) are left out."""
     found = []
     for folder, folders, names in os.walk(root):
-        folders[:] = sorted(f for f in folders if f not in SKIPPED_FOLDERS)
+        folders[:] = sorted(f for f in folders if f not in SKIPPED)
         for name in sorted(names):
             path = Path(folder) / name
-            if path.is_symlink() or not path.is_file():
+            if name in SKIPPED or path.is_symlink() or not path.is_file():
                 continue
             with path.open("rb") as stream:
                 if b"\0" in stream.read(4096):

@@ -20,6 +20,8 @@ namespace thalweg::cli {
 namespace {
 
 constexpr std::uint64_t kMostThreads = 4096;
+constexpr const char* kGlobalsLine =
+    "Also of every command: --threads, --isa, --seed, --json, --quiet; see thalweg --help.";
 
 std::string target_names() {
   std::vector<std::string_view> names;
@@ -100,6 +102,8 @@ ExitCode parse_and_run(int argc, const char* const* argv, std::span<const AddCom
   for (const AddCommand add : add_commands) {
     commands.push_back(add(app, globals));
     commands.back().app->fallthrough();  // global options may follow the command's name
+    CLI::App& command = *commands.back().app;
+    command.footer(std::string(kGlobalsLine) + (command.get_footer().empty() ? "" : "\n\n" + command.get_footer()));
   }
   if (!parse(app, argc, argv)) return ExitCode::done;
   globals.threads = static_cast<int>(threads);

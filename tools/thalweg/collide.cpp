@@ -109,6 +109,34 @@ std::string report_text(const Options& options, const Globals& globals, const Ru
   return sheet.text();
 }
 
+/// Options that not every kind of query takes.
+struct OptionFor {
+  const char* option;
+  bool triangles, circles, pairs;
+};
+constexpr std::array kOptionsFor = {
+    OptionFor{"--start", true, false, false},           OptionFor{"--starts", true, false, true},
+    OptionFor{"--iterations", true, false, true},       OptionFor{"--step", true, false, false},
+    OptionFor{"--floor", true, false, false},           OptionFor{"--stop", true, false, false},
+    OptionFor{"--stop-at-witness", true, false, false}, OptionFor{"--contacts", true, false, true},
+    OptionFor{"--margin", true, false, false},          OptionFor{"--feature", true, false, false},
+    OptionFor{"--one-sided", true, true, false},        OptionFor{"--explain", true, true, false},
+    OptionFor{"--region", false, false, true},          OptionFor{"--paths", false, false, true}};
+
+/// Nothing that was asked for is left out in silence.
+void check_options(const CLI::App& command, const Options& options) {
+  const bool pairs = !options.pairs.with.empty();
+  const bool triangles = !pairs && options.kind() == QueryKind::triangles;
+  for (const OptionFor& row : kOptionsFor) {
+    if (command.get_option(row.option)->count() == 0) continue;
+    if (pairs ? row.pairs : triangles ? row.triangles : row.circles) continue;
+    std::string kinds = row.triangles ? "--triangles" : "";
+    if (row.circles) kinds += kinds.empty() ? "--circles" : " or --circles";
+    if (row.pairs) kinds += kinds.empty() ? "--with and --poses" : " or --with";
+    refuse(kCommandLine, row.option, kinds, pairs ? "--with" : triangles ? "--triangles" : "--circles");
+  }
+}
+
 void check(const Options& options) {
   if (options.circles.empty() && options.triangles.empty()) {
     refuse(kCommandLine, "collide", "--circles, --triangles, or --with and --poses", "none of them");
@@ -149,7 +177,6 @@ ExitCode run_pairs(const Options& options, const Globals& globals) {
   if (request.wants_paths && options.collide.method == Method::certified) {
     refuse(kCommandLine, "--paths", "a method that descends: thesis, midsurface", "certified");
   }
-  if (options.one_sided) refuse(kCommandLine, "--one-sided", "--triangles or --circles", "--with");
   request.scene = options.scene;
   request.output = options.output;
   return run_collide_pairs(request, globals);
@@ -162,9 +189,6 @@ ExitCode run_collide(Options& options, const Globals& globals) {
   if (!options.pairs.with.empty() || !options.pairs.poses.empty()) return run_pairs(options, globals);
   check(options);
   if (options.pairs.wants_contacts) options.collide.contacts = static_cast<std::uint32_t>(options.pairs.contacts);
-  if (options.pairs.wants_paths || options.pairs.options.region > 0) {
-    refuse(kCommandLine, options.pairs.wants_paths ? "--paths" : "--region", "--with and --poses", "other queries");
-  }
   const Scene scene = read_scene(options.scene);
   const Tape tape = unwrap(compile(scene.shape), input_name(options.scene), "/shape");
   const Array rows = options.kind() == QueryKind::triangles ? read_triangles(options.triangles, scene.dimension)
@@ -186,7 +210,8 @@ ExitCode run_collide(Options& options, const Globals& globals) {
 
 /// Returns the option --contacts.
 CLI::Option* add_pair_options(CLI::App& command, PairRequest& pairs) {
-  command.add_option("--with", pairs.with, "A second scene, placed by --poses");
+  command.add_option("--with", pairs.with,
+                     "A second scene, placed by --poses; methods certified, thesis and midsurface");
   command.add_option("--poses", pairs.poses,
                      "Poses of the second scene: (N,3) x y angle, (N,7) x y z qw qx qy qz, .npy");
   add_positive(command,
@@ -213,7 +238,10 @@ std::string method_names() {
 std::string method_lines() {
   std::string lines = "Methods:\n";
   for (const MethodRow& row : method_table()) {
-    const std::string_view queries = row.method == Method::certified ? "" : row.triangles ? "triangles; " : "circles; ";
+    const std::string_view queries = row.method == Method::certified ? ""
+                                     : row.pairs                     ? "pairs; "
+                                     : row.triangles                 ? "triangles; "
+                                                                     : "circles; ";
     lines += fmt::format("  {:<19} {}{} [{}]\n", row.name, queries, row.mathematics, row.source);
   }
   return lines;
@@ -280,7 +308,8 @@ Command add_collide(CLI::App& app, const Globals& globals) {
   add_contact_options(*command, *options);
   add_explain(*command, *options);
   command->footer(method_lines());
-  return {command, [options, gradient, contacts, &globals] {
+  return {command, [command, options, gradient, contacts, &globals] {
+            check_options(*command, *options);
             options->collide.gradient_given = gradient->count() > 0;
             options->pairs.wants_contacts = contacts->count() > 0;
             return run_collide(*options, globals);

@@ -16,6 +16,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <sstream>
 #include <string_view>
 
@@ -136,6 +137,17 @@ int run_gnuplot(const std::string& folder, const std::string& script, const std:
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
 }
 
+// gnuplot does not notice when its picture does not fit on the disk: a whole one ends with the chunk IEND.
+bool is_whole_picture(const std::string& path) {
+  constexpr std::string_view kEnd = "IEND\xae\x42\x60\x82";
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  std::array<char, kEnd.size()> tail = {};
+  if (!file || file.tellg() < static_cast<std::streamoff>(tail.size())) return false;
+  file.seekg(-static_cast<std::streamoff>(tail.size()), std::ios::end);
+  file.read(tail.data(), tail.size());
+  return file && std::string_view(tail.data(), tail.size()) == kEnd;
+}
+
 }  // namespace
 
 Plotter::Plotter(std::string folder) : folder_(std::move(folder)) {
@@ -153,9 +165,11 @@ void Plotter::draw(const Plot& plot) const {
   const std::string unfinished = "." + plot.name + ".png";
   const std::string from = folder_ + "/" + unfinished;
   const int status = run_gnuplot(folder_, script, unfinished);
-  if (status == 0 && std::rename(from.c_str(), path(plot).c_str()) == 0) return;
+  const bool whole = status == 0 && is_whole_picture(from);
+  if (whole && std::rename(from.c_str(), path(plot).c_str()) == 0) return;
   std::remove(from.c_str());
-  fail(folder_ + "/" + script, "gnuplot", "a picture", fmt::format("exit status {}", status));
+  fail(folder_ + "/" + script, "gnuplot", "a picture",
+       status == 0 ? "a picture that is not whole" : fmt::format("exit status {}", status));
 }
 
 }  // namespace thalweg::cli

@@ -44,7 +44,7 @@ enum class Start : std::uint8_t { own, centroid, vertices, mid_edges, best_of_4,
 enum class Stop : std::uint8_t {
   none = 0,        ///< a bad row
   goal = 1,        ///< what the goal asks for is proven
-  budget = 2,      ///< the evaluations allowed are spent
+  budget = 2,      ///< the evaluations allowed are spent, or double precision can tell no more
   iterations = 3,  ///< the iterations allowed are spent
   small_step = 4,  ///< a step moved the barycentric coordinates by less than the stop rule says
   stationary = 5,  ///< no direction leads down: the gradient vanishes, or the model of f has no lower point

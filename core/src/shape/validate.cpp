@@ -77,6 +77,23 @@ std::optional<Error> validate_operands(const Entry& entry, const std::vector<Sha
   return std::nullopt;
 }
 
+/// The numbers of one parameter as an error shows them.
+std::string found_in(const Entry& entry, std::span<const double> numbers, std::string_view name) {
+  std::size_t at = 0;
+  for (const OpParameter& parameter : entry.row.parameters) {
+    const std::size_t count = parameter.arity == 0 ? numbers.size() - at : static_cast<std::size_t>(parameter.arity);
+    if (parameter.name == name) {
+      if (parameter.arity == 0) return std::to_string(count / 2) + " points";
+      if (parameter.arity == 1) return to_text(numbers[at]);
+      std::string text;
+      for (const double number : numbers.subspan(at, count)) text.append(text.empty() ? "[" : ", ") += to_text(number);
+      return text + "]";
+    }
+    at += count;
+  }
+  return "other numbers";
+}
+
 }  // namespace
 
 std::string to_text(double number) {
@@ -125,7 +142,7 @@ std::optional<Error> validate(const Entry& entry, std::vector<double>& numbers, 
       return Error{.file = "",
                    .place = std::string(complaint->parameter),
                    .expected = std::string(complaint->expected),
-                   .found = "other numbers"};
+                   .found = found_in(entry, numbers, complaint->parameter)};
     }
   }
   return std::nullopt;

@@ -80,7 +80,7 @@ class Search {
       heap_.pop_back();
       region_.is_ball ? split_box(parent) : split_triangle(parent);
     }
-    best_.closed = heap_.empty() || satisfied();
+    best_.closed = (heap_.empty() && !gave_up_) || satisfied();
     if (!heap_.empty()) best_.lower = std::min(best_.lower, heap_.front().lo);
     best_.lower = std::min(best_.lower, best_.value);
     if (kept_ != nullptr) kept_->insert(kept_->end(), heap_.begin(), heap_.end());
@@ -144,7 +144,9 @@ class Search {
     }
     // Too small to learn more from, in double as well.
     const bool at_the_end = shape.reach <= slack_ / 4;
-    if (is_closed(cell.lo) || at_the_end) {
+    const bool closed = is_closed(cell.lo);
+    if (closed || at_the_end) {
+      gave_up_ = gave_up_ || !closed;
       best_.lower = std::min(best_.lower, cell.lo);
       if (kept_ != nullptr) kept_->push_back(cell);
     } else {
@@ -264,6 +266,7 @@ class Search {
   std::vector<HeapCell>& heap_;
   std::vector<HeapCell>* kept_ = nullptr;
   Decision best_;
+  bool gave_up_ = false;  ///< some cell was too small for double
   double slack_ = 0;
   std::uint32_t most_evaluations_ = 0;
 };

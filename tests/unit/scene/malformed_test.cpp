@@ -155,7 +155,7 @@ const Malformed kNumber[] = {
     {"sharpness_below_2", in2(R"({"op": "star", "radius": 1, "points": 5, "sharpness": 1.9})"), "/shape/sharpness",
      "a number in [2", "1.9"},
     {"sharpness_above_points", in2(R"({"op": "star", "radius": 1, "points": 5, "sharpness": 6})"), "/shape/sharpness",
-     "[2, points]", ""},
+     "[2, points]", "6"},
     {"angle_zero", in2(R"({"op": "pie", "aperture": 0, "radius": 1})"), "/shape/aperture", "an angle", "0"},
     {"angle_above_pi", in2(R"({"op": "pie", "aperture": 3.2, "radius": 1})"), "/shape/aperture", "radians", "3.2"},
     {"scale_zero", in2(R"({"op": "scale", "factor": 0, "of": {"op": "cool_s"}})"), "/shape/factor", "a number in", "0"},
@@ -169,8 +169,14 @@ const Malformed kNumber[] = {
     {"third_axis_in_2d", in2(R"({"op": "mirror", "axis": "z", "of": {"op": "cool_s"}})"), "/shape/axis", "one of x|y",
      "\"z\""},
     {"ring_wider_than_its_radius", in2(R"({"op": "ring", "aperture": 1, "radius": 1, "thickness": 2.5})"),
-     "/shape/thickness", "twice the radius", ""},
-    {"moon_eaten_up", in2(R"({"op": "moon", "offset": 1, "ra": 1, "rb": 2})"), "/shape/rb", "below ra + offset", ""},
+     "/shape/thickness", "twice the radius", "2.5"},
+    {"moon_eaten_up", in2(R"({"op": "moon", "offset": 1, "ra": 1, "rb": 2})"), "/shape/rb", "below ra + offset", "2"},
+    {"corner_wider_than_its_box", in2(R"({"op": "rounded_box", "half_size": [1, 2], "radii": [0, 1.5, 0, 0]})"),
+     "/shape/radii", "the smaller half_size", "[0, 1.5, 0, 0]"},
+    {"corners_on_a_line", in2(R"({"op": "triangle", "a": [0, 0], "b": [1, 1], "c": [3, 3]})"), "/shape/c",
+     "do not lie on one line", "[3, 3]"},
+    {"edges_that_cross", in2(R"({"op": "polygon", "points": [[0, 0], [1, 1], [1, 0], [0, 1]]})"), "/shape/points",
+     "do not cross", "4 points"},
 };
 
 const Malformed kVector[] = {
