@@ -163,6 +163,7 @@ class CollideTask final : public TileTask {
   void answer(const Tape& tape, const float* rows, std::size_t count, const CollideColumns& columns, Worker& worker) {
     worker.status.resize(count);
     worker.evaluations.resize(count);
+    worker.scratch.twin.use(tape);
     Tile tile;
     tile.tape = &tape;
     tile.kernels = target_->kernels;

@@ -28,12 +28,9 @@ inline constexpr std::size_t kBlockTiles = 32;
 class OrderedRows {
  public:
   OrderedRows(const Tape& tape, const RowLayout& layout, bool asks_bounds)
-      : tape_(tape),
-        layout_(layout),
-        asks_bounds_(asks_bounds),
-        shortener_(tape),
-        block_tape_(tape),
-        tile_tape_(tape) {}
+      : tape_(tape), layout_(layout), asks_bounds_(asks_bounds), block_tape_(tape), tile_tape_(tape) {
+    shortener_.begin(tape);
+  }
 
   /// Gathers a block of rows by their indices, and shortens the tape for it; `tile` rows make a tile.
   void take(const float* rows, std::span<const std::uint32_t> order, std::size_t tile, const Kernels& kernels) {
@@ -53,14 +50,14 @@ class OrderedRows {
     }
     const Region whole = region_of(block);
     shortener_.analyse(tape_, kernels, {&whole, 1});
-    shortener_.shorten(tape_, 0, block_tape_);
+    shortener_.shorten(0, block_tape_);
     shortener_.analyse(block_tape_, kernels, regions_);
   }
 
   [[nodiscard]] const float* rows() const { return rows_.data(); }
   /// The tape for one tile of the block, valid until the next call.
   [[nodiscard]] const Tape& tape_of(std::size_t tile) {
-    shortener_.shorten(block_tape_, tile, tile_tape_);
+    shortener_.shorten(tile, tile_tape_);
     return tile_tape_;
   }
 

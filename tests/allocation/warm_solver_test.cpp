@@ -15,6 +15,7 @@
 #include "random.h"
 #include "solve/pairs/local.h"
 #include "solve/plan.h"
+#include "thalweg/batch.h"
 #include "thalweg/ops.h"
 #include "thalweg/simd.h"
 
@@ -200,6 +201,18 @@ TEST(WarmPairSolver, AllocatesNothing) {
       for (int round = 0; round < 3; ++round) solve(tile, scratch);
       EXPECT_EQ(allocations_of([&] { solve(tile, scratch); }), 0U) << name(method) << ' ' << name(goal);
     }
+  }
+}
+
+TEST(WarmGrid, AllocatesNothing) {
+  const Tape tape = std::move(compile(flat_and_round())).value();
+  const Grid grid{.origin = {-4, -4}, .step = {{0.02}, {0, 0.02}}, .size = {400, 400, 1}};
+  std::vector<float> value(grid.count());
+  std::vector<std::uint8_t> inside(grid.count());
+  for (const GridColumns& columns : {GridColumns{.value = value.data()}, GridColumns{.inside = inside.data()}}) {
+    const auto run = [&] { static_cast<void>(evaluate_grid(tape, grid, columns, {.threads = 1})); };
+    for (int round = 0; round < 3; ++round) run();
+    EXPECT_EQ(allocations_of(run), 0U);
   }
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 TEST(BatchQueries, GiveTheSameAnswersFromManyThreadsAtOnce) {
   static constexpr std::string_view kNames[] = {"triangles2_verdict", "triangles3_projected", "circles2_deepest",
-                                                "eval3_autodiff"};
+                                                "eval3_autodiff", "grid3_all"};
   std::vector<std::unique_ptr<Workload>> workloads;
   std::vector<std::uint64_t> expected;
   for (const std::string_view name : kNames) {

@@ -48,6 +48,8 @@ inline constexpr Golden kGolden[] = {
     {"eval3_closest_point", 0x975b5ff2901ad8fc, 0xa10752f35e9205b9},
     {"eval3_forward", 0xf78cc89a1513f82a, 0xdf49bbeef74ad840},
     {"eval3_simplex", 0xd81c7bd810857423, 0x7d0001e3aa60f2c2},
+    {"grid2_all", 0x2b329b4bd07b9b5d, 0x4873d9b6f89c4ad6},
+    {"grid3_all", 0x3c17cf3478366e6e, 0x0eea2c5ecf0c2de2},
     {"eval2_dichotomy", 0xd8ae6c9d81abc6e8, 0x7f1361b3efff557b},  // libm
 };
 // clang-format on

@@ -131,6 +131,10 @@ Workload::Workload(std::string_view name) {
   Random random(2026);
   options_.goal = rest == "deepest" ? Goal::deepest : Goal::verdict;
   count_ = rest == "deepest" ? 300 : 3000;
+  if (name.starts_with("grid")) {
+    kind_ = Kind::grid;
+    return;
+  }
   if (name.starts_with("eval")) {
     kind_ = Kind::points;
     gradient_ = *parse_gradient(rest);
@@ -149,6 +153,7 @@ Workload::Workload(std::string_view name) {
 }
 
 std::uint64_t Workload::run(const Execution& execution) const {
+  if (kind_ == Kind::grid) return run_grid(execution);
   return kind_ == Kind::points ? run_points(execution) : run_queries(execution);
 }
 
@@ -164,6 +169,23 @@ std::uint64_t Workload::run_points(const Execution& execution) const {
   Hash hash;
   hash.add(&bad, sizeof bad);
   hash.add(value), hash.add(gradient), hash.add(alone);
+  return hash.value();
+}
+
+std::uint64_t Workload::run_grid(const Execution& execution) const {
+  const Grid grid =
+      tape_.dimension == 2
+          ? Grid{.origin = {-100, -100}, .step = {{11, 1}, {-0.5, 9}}, .size = {190, 137, 1}}
+          : Grid{.origin = {-10, -50, -80}, .step = {{3.1}, {0, 4.2, 1}, {0, -0.7, 3}}, .size = {45, 41, 43}};
+  Hash hash;
+  for (const float band : {std::numeric_limits<float>::infinity(), 10.0F, 0.0F}) {
+    auto value = filled<float>(grid.count());
+    auto inside = filled<std::uint8_t>(grid.count());
+    const auto evaluated = evaluate_grid(
+        tape_, grid, {.value = band > 0 ? value.data() : nullptr, .inside = inside.data(), .band = band}, execution);
+    if (!evaluated) throw std::logic_error(to_string(evaluated.error()));
+    hash.add(value), hash.add(inside);
+  }
   return hash.value();
 }
 

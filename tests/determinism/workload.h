@@ -39,10 +39,11 @@ class Workload {
   [[nodiscard]] const Tape& tape() const { return tape_; }
 
  private:
-  enum class Kind { triangles, circles, points };
+  enum class Kind { triangles, circles, points, grid };
 
   [[nodiscard]] std::uint64_t run_queries(const Execution& execution) const;
   [[nodiscard]] std::uint64_t run_points(const Execution& execution) const;
+  [[nodiscard]] std::uint64_t run_grid(const Execution& execution) const;
 
   Kind kind_ = Kind::triangles;
   Tape tape_;

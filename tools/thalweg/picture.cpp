@@ -8,6 +8,7 @@
 // differs as well.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 
@@ -24,11 +25,12 @@ namespace {
 
 constexpr std::size_t kSamples = 4;  // per pixel: two by two
 constexpr std::size_t kStripPixels = std::size_t{1} << 16;
-constexpr double kOffsets[2] = {0.25, 0.75};
+constexpr std::size_t kStripRows = 64;  // or more, where they are short
 
 struct Samples {
   std::vector<float> points, value, gradient;
-  std::vector<float> measure;  // what `error` and `steps` show, as a share of their scale
+  std::vector<float> row_major;  // values as a grid has them
+  std::vector<float> measure;    // what `error` and `steps` show, as a share of their scale
 };
 
 // One pixel's four samples, in the order top left, top right, bottom left, bottom right.
@@ -133,17 +135,30 @@ class Painter {
   Ramp outside_{{0.975F, 0.015F, 1.35F}, {0.66F, 0.16F, 0.95F}};
 };
 
-void place_samples(const View& view, std::size_t first_row, std::size_t rows, std::size_t dimension, Samples& samples) {
+// The samples of some rows of pixels: two by two each, y downwards.
+Grid sample_grid(const View& view, std::size_t first_row, std::size_t rows) {
   const double dx = (view.x1 - view.x0) / static_cast<double>(view.width);
   const double dy = (view.y1 - view.y0) / static_cast<double>(view.height);
-  samples.points.clear();
-  for (std::size_t row = first_row; row < first_row + rows; ++row) {
-    for (std::size_t column = 0; column < view.width; ++column) {
-      for (std::size_t i = 0; i < kSamples; ++i) {
-        samples.points.push_back(static_cast<float>(view.x0 + (static_cast<double>(column) + kOffsets[i % 2]) * dx));
-        samples.points.push_back(static_cast<float>(view.y1 - (static_cast<double>(row) + kOffsets[i / 2]) * dy));
-        if (dimension == 3) samples.points.push_back(static_cast<float>(view.slice));
-      }
+  Grid grid;
+  grid.origin[0] = view.x0 + 0.25 * dx;
+  grid.origin[1] = view.y1 - (static_cast<double>(first_row) + 0.25) * dy;
+  grid.origin[2] = view.slice;
+  grid.step[0][0] = 0.5 * dx;
+  grid.step[1][1] = -0.5 * dy;
+  grid.size[0] = 2 * view.width;
+  grid.size[1] = 2 * rows;
+  return grid;
+}
+
+// Pixel by pixel from row by row.
+std::size_t sample_column(std::size_t sample) { return sample / kSamples * 2 + sample % 2; }
+
+void place_samples(const Grid& grid, std::size_t dimension, Samples& samples) {
+  samples.points.resize(grid.count() * dimension);
+  float* to = samples.points.data();
+  for (std::size_t j = 0; j < grid.size[1]; j += 2) {
+    for (std::size_t i = 0; i < 2 * grid.size[0]; ++i, to += dimension) {
+      grid.point(sample_column(i), j + i / 2 % 2, 0, static_cast<int>(dimension), to);
     }
   }
 }
@@ -151,15 +166,50 @@ void place_samples(const View& view, std::size_t first_row, std::size_t rows, st
 void evaluate_samples(const Tape& tape, const PictureStyle& style, const Execution& execution, Samples& samples) {
   const auto dimension = static_cast<std::size_t>(tape.dimension);
   const std::size_t count = samples.points.size() / dimension;
-  const bool with_gradient = style.mode == PictureMode::gradient || style.mode == PictureMode::error;
   samples.value.resize(count);
-  samples.gradient.resize(with_gradient ? count * dimension : 0);
-  const PointColumns columns{.value = samples.value.data(),
-                             .gradient = with_gradient ? samples.gradient.data() : nullptr};
+  samples.gradient.resize(count * dimension);
+  const PointColumns columns{.value = samples.value.data(), .gradient = samples.gradient.data()};
   static_cast<void>(unwrap(evaluate(tape, Points{samples.points.data(), count}, style.gradient, columns, execution),
                            kCommandLine, "--gradient"));
   if (style.mode == PictureMode::error) samples.measure = error_shares(tape, samples.points, samples.gradient);
-  if (style.mode == PictureMode::steps) samples.measure = step_shares(tape, samples.points, style.gradient, execution);
+}
+
+// How far from the surface the picture of the inside depends on more than the sign: its line is 2 pixels wide, and
+// the samples of a pixel that it touches lie within 3 L pixels of 0.
+float band_of(const Tape& tape, const View& view) {
+  const double pixel = std::max((view.x1 - view.x0) / static_cast<double>(view.width),
+                                (view.y1 - view.y0) / static_cast<double>(view.height));
+  return static_cast<float>(4 * tape.facts.lipschitz * pixel);
+}
+
+// Where only the value is shown.
+void evaluate_values(const Tape& tape, const Grid& grid, float band, const Execution& execution, Samples& samples) {
+  samples.row_major.resize(grid.count());
+  samples.value.resize(grid.count());
+  static_cast<void>(evaluate_grid(tape, grid, {.value = samples.row_major.data(), .band = band}, execution));
+  float* to = samples.value.data();
+  for (std::size_t j = 0; j < grid.size[1]; j += 2) {
+    for (std::size_t i = 0; i < 2 * grid.size[0]; ++i) {
+      *to++ = samples.row_major[(j + i / 2 % 2) * grid.size[0] + sample_column(i)];
+    }
+  }
+}
+
+void sample(const Tape& tape, const View& view, const Grid& grid, const PictureStyle& style, const Execution& execution,
+            Samples& samples) {
+  if (style.mode == PictureMode::inside || style.mode == PictureMode::distance) {
+    const bool signs = style.mode == PictureMode::inside;
+    const float band = signs ? band_of(tape, view) : std::numeric_limits<float>::infinity();
+    evaluate_values(tape, grid, band, execution, samples);
+    return;
+  }
+  place_samples(grid, static_cast<std::size_t>(tape.dimension), samples);
+  if (style.mode == PictureMode::steps) {
+    evaluate_values(tape, grid, std::numeric_limits<float>::infinity(), execution, samples);
+    samples.measure = step_shares(tape, samples.points, style.gradient, execution);
+  } else {
+    evaluate_samples(tape, style, execution, samples);
+  }
 }
 
 }  // namespace
@@ -177,15 +227,14 @@ Canvas draw_field(const Tape& tape, const View& view, PictureStyle style, const 
   Canvas canvas(view.width, view.height);
   const Painter painter(view, style);
   const auto dimension = static_cast<std::size_t>(tape.dimension);
-  const std::size_t strip_rows = std::max(kStripPixels / view.width, std::size_t{1});
+  const std::size_t strip_rows = std::max(kStripPixels / view.width, kStripRows);
   Progress progress("render", view.width * view.height * kSamples, globals.quiet);
   Execution execution = globals.execution();
   execution.done = progress.done();
   Samples samples;
   for (std::size_t first = 0; first < view.height; first += strip_rows) {
     const std::size_t rows = std::min(strip_rows, view.height - first);
-    place_samples(view, first, rows, dimension, samples);
-    evaluate_samples(tape, style, execution, samples);
+    sample(tape, view, sample_grid(view, first, rows), style, execution, samples);
     for (std::size_t i = 0; i < rows * view.width; ++i) {
       const auto part = [&](const std::vector<float>& numbers, std::size_t width) {
         const std::span<const float> all = numbers;

@@ -6,10 +6,11 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
-#include "kernels/kernels.h"
+#include "kernels/regions.h"
 #include "solve/arena.h"
 #include "thalweg/tape.h"
 
@@ -26,42 +27,50 @@ struct Region {
 
 class Shortener {
  public:
-  explicit Shortener(const Tape& full);
+  /// For this tape from now on; `full` must outlive its use. Keeps the memory of the last one.
+  void begin(const Tape& full);
 
-  /// Analyses regions together. `from` is the full tape, or one shortened over a region that holds them all.
-  void analyse(const Tape& from, const Kernels& kernels, std::span<const Region> regions);
+  /// Analyses regions together and writes a tape for each. `from` is the full tape, or one shortened over a region that
+  /// holds them all. With a band, values beyond [-band, band] matter only for the side on which they lie: a short tape
+  /// gives another value there, on the same side of the band, and where all values are beyond it no tape is written.
+  void analyse(const Tape& from, const Kernels& kernels, std::span<const Region> regions,
+               float band = std::numeric_limits<float>::infinity());
   /// What float32 computes for f lies within [lower, upper] all over a region that was analysed.
-  [[nodiscard]] float lower(std::size_t region) const { return columns_.lower[region]; }
-  [[nodiscard]] float upper(std::size_t region) const { return columns_.upper[region]; }
-  /// The tape for one of the analysed regions: written to `to`, which began as a copy of the full tape.
-  void shorten(const Tape& from, std::size_t region, Tape& to);
+  [[nodiscard]] float lower(std::size_t region) const { return groups_[region / kRegionLanes].lower[lane(region)]; }
+  [[nodiscard]] float upper(std::size_t region) const { return groups_[region / kRegionLanes].upper[lane(region)]; }
+  /// The program for one of the analysed regions, valid until the next analysis.
+  [[nodiscard]] std::span<const Instruction> program(std::size_t region) const {
+    const Stream& stream = streams_[region];
+    return {stream.instructions, stream.size};
+  }
+  /// The same as the program of `to`, which began as a copy of the full tape.
+  void shorten(std::size_t region, Tape& to) const {
+    const auto instructions = program(region);
+    to.instructions.assign(instructions.begin(), instructions.end());
+  }
 
  private:
-  /// Numbers from lo to hi; none when lo > hi.
-  struct Range {
-    double lo, hi;
-  };
-  /// Which operands a combining instruction needs, and which of their values matter.
-  struct Needs {
-    bool accumulator = true, operand = true;
-    Range accumulator_range, operand_range;
+  /// A program while it is written.
+  struct Stream {
+    Instruction* instructions = nullptr;
+    std::uint32_t size = 0;
+    std::uint32_t producer = 0;  ///< one more than the index of what left the accumulator as it is; 0: nothing yet
+    void add(const Instruction& in);
+    void keep(std::uint16_t target);
+    void load(std::uint16_t slot, std::uint16_t target);
   };
 
-  void trace_sources(const Tape& from);
-  [[nodiscard]] Range interval(std::uint32_t instruction, std::size_t region) const;
-  [[nodiscard]] Needs needs(const Tape& from, std::size_t instruction, std::size_t region, Range matters) const;
-  void require(std::uint16_t slot, Range range);
+  static std::size_t lane(std::size_t region) { return region % kRegionLanes; }
+  [[nodiscard]] RegionColumns columns_of(std::span<const Region> regions, float band);
+  void write(const Tape& from, std::span<Stream> streams);
 
   Affine slack_;
   Arena arena_;
-  RegionColumns columns_;
-  std::vector<float> gap_;  ///< per region: how far apart operands must be
-  float* record_ = nullptr;
-  /// Per instruction: the ones whose results it finds in the accumulator and in its operand.
-  std::vector<std::uint32_t> accumulator_source_, operand_source_;
-  std::vector<std::uint32_t> writer_;  ///< per register
-  std::vector<Range> register_range_;  ///< values that matter to what comes later
-  std::vector<std::uint8_t> position_used_;
+  RegionWork work_;
+  std::vector<RegionColumns> groups_;  ///< of kRegionLanes regions
+  std::vector<Stream> streams_;
+  std::vector<float> ranges_;
+  std::vector<std::uint32_t> positions_;
 };
 
 }  // namespace thalweg

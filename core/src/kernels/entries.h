@@ -15,7 +15,7 @@ namespace thalweg {
 [[nodiscard]] StrategyKernel strategy_entry(std::int64_t target);
 [[nodiscard]] RowsKernel rows_entry(std::int64_t target);
 [[nodiscard]] EnclosureKernel enclosure_entry(std::int64_t target);
-[[nodiscard]] IntervalKernel intervals_entry(std::int64_t target);
+[[nodiscard]] RegionKernel regions_entry(std::int64_t target);
 [[nodiscard]] FinishKernel finish_entry(std::int64_t target);
 [[nodiscard]] TriangleSolver certify_triangles_entry(std::int64_t target);
 [[nodiscard]] CircleSolver certify_circles_entry(std::int64_t target);

@@ -69,19 +69,10 @@ using StrategyKernel = void (*)(const Tape& tape, const GradientRule& rule, cons
 using EnclosureKernel = void (*)(const Tape& tape, const float* const* centres, const CellColumns& cells,
                                  std::size_t count, float* lower, float* value, float* scratch);
 
-/// Regions are analysed in multiples of this many.
-inline constexpr std::size_t kRegionLanes = kGradientWidth * 16;
-/// Balls around centres, one entry each; f lies within [lower, upper] over them.
-struct RegionColumns {
-  std::size_t count = 0;
-  std::size_t stride = 0;  ///< count up to whole chunks
-  float* centre[3] = {};
-  float* reach = nullptr;  ///< widened by rounding
-  float* lower = nullptr;
-  float* upper = nullptr;
-};
-/// Records the interval of each instruction's result but loads: [instruction][lo, hi][stride].
-using IntervalKernel = void (*)(const Tape& tape, const RegionColumns& regions, float* record, float* scratch);
+struct RegionColumns;
+struct RegionWork;
+/// Which instructions can decide the value over each of many regions (kernels/regions.h).
+using RegionKernel = void (*)(const Tape& tape, const RegionColumns& regions, const RegionWork& work);
 
 struct TriangleTile;
 struct CircleTile;
@@ -103,7 +94,7 @@ struct Kernels {
   StrategyKernel strategy = nullptr;
   RowsKernel rows = nullptr;
   EnclosureKernel enclosure = nullptr;
-  IntervalKernel intervals = nullptr;
+  RegionKernel regions = nullptr;
   FinishKernel finish = nullptr;
   TriangleSolver certify_triangles = nullptr;
   CircleSolver certify_circles = nullptr;

@@ -36,7 +36,7 @@ TargetList make_targets() {
                             .strategy = strategy_entry(target),
                             .rows = rows_entry(target),
                             .enclosure = enclosure_entry(target),
-                            .intervals = intervals_entry(target),
+                            .regions = regions_entry(target),
                             .finish = finish_entry(target),
                             .certify_triangles = certify_triangles_entry(target),
                             .certify_circles = certify_circles_entry(target),

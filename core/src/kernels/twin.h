@@ -26,6 +26,9 @@ struct Enclosure64 {
 class Twin {
  public:
   explicit Twin(const Tape& tape);
+  /// From now on this tape, a shortened one of the first or that one again: where it has the bits of the full tape in
+  /// float32 it has them in double, whose errors are a small part of what regions are widened by.
+  void use(const Tape& tape) { tape_ = &tape; }
   [[nodiscard]] double value(const double* point);
   double gradient(const double* point, double* gradient);
   [[nodiscard]] Enclosure64 enclose(const double* centre, const Cell64& cell);

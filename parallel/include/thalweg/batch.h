@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "thalweg/pairs.h"
 #include "thalweg/query.h"
@@ -54,6 +55,32 @@ struct EvaluateSummary {
 /// tape does not allow.
 [[nodiscard]] Result<EvaluateSummary> evaluate(const Tape& tape, Points points, const GradientOptions& options,
                                                const PointColumns& columns, const Execution& execution = {});
+
+/// Points on a regular grid: origin + i step[0] + j step[1] + k step[2] for i < size[0] and so on, each coordinate
+/// rounded once from double. An axis of size 1 needs no step: a picture has two axes, of a slice in space too.
+struct Grid {
+  double origin[3] = {};
+  double step[3][3] = {};
+  std::size_t size[3] = {1, 1, 1};
+
+  [[nodiscard]] std::size_t count() const { return size[0] * size[1] * size[2]; }
+  /// The coordinates, as many as there are dimensions, that f is evaluated at.
+  void point(std::size_t i, std::size_t j, std::size_t k, int dimension, float* coordinates) const;
+};
+
+/// What is wanted of a grid, its axis 0 running fastest; a null column is not computed.
+struct GridColumns {
+  float* value = nullptr;          ///< f, cut off to [-band, band]
+  std::uint8_t* inside = nullptr;  ///< 1 where f < 0, else 0
+  float band = std::numeric_limits<float>::infinity();
+};
+
+/// f over a grid, with the bits that `evaluate` has for its points, but in less time: tiles of the grid where f is
+/// proven beyond the band, or of one sign where only that is asked, are filled without evaluating, and the others are
+/// evaluated by what of the tape can decide there. `evaluations` counts the points evaluated. A bad point gives NaN,
+/// and is not inside. Refuses a negative band.
+[[nodiscard]] Result<EvaluateSummary> evaluate_grid(const Tape& tape, const Grid& grid, const GridColumns& columns,
+                                                    const Execution& execution = {});
 
 /// Triangles against the tape's shape. Refuses options that the method or the tape cannot honour.
 [[nodiscard]] Result<Summary> collide_triangles(const Tape& tape, Queries triangles, const CollideOptions& options,

@@ -77,7 +77,7 @@ void expect_the_same_bits(const Tape& full, Shortener& shortener, std::span<cons
   for (const Target& target : targets()) {
     shortener.analyse(full, *target.kernels, regions);
     for (std::size_t i = 0; i < regions.size(); ++i) {
-      shortener.shorten(full, i, tape);
+      shortener.shorten(i, tape);
       const Cells cells(random, regions[i], full.dimension);
       auto expected = answers(full, *target.kernels, cells);
       auto found = answers(tape, *target.kernels, cells);
@@ -102,7 +102,8 @@ TEST_P(RandomScenes, KeepTheirBits) {
     Random random(seed);
     const Shape shape = oracle::random_shape(random, dimension, 12 + static_cast<int>(random.index(30)));
     const Tape full = tape_of(shape);
-    Shortener shortener(full);
+    Shortener shortener;
+    shortener.begin(full);
     std::vector<Region> regions;
     for (int i = 0; i < 5; ++i) regions.push_back(random_region(random, dimension, 20));
     expect_the_same_bits(full, shortener, regions, random, oracle::describe(shape, seed));
@@ -130,14 +131,15 @@ Shape scattered_discs(int side, double k) {
 TEST(Shortened, TapeHoldsWhatIsNearWhateverTheOrderOfTheUnions) {
   for (const double k : {0.0, 0.01}) {
     const Tape full = tape_of(scattered_discs(20, k));
-    Shortener shortener(full);
+    Shortener shortener;
+    shortener.begin(full);
     Tape tape = full;
     Region region;
     region.centre[0] = 7.2F;
     region.centre[1] = 11.9F;
     region.reach = 0.2F;
     shortener.analyse(full, *default_target().kernels, {&region, 1});
-    shortener.shorten(full, 0, tape);
+    shortener.shorten(0, tape);
     EXPECT_GT(full.instructions.size(), 700U);
     EXPECT_LT(tape.instructions.size(), 12U) << tape.disassembly();
   }
@@ -145,7 +147,8 @@ TEST(Shortened, TapeHoldsWhatIsNearWhateverTheOrderOfTheUnions) {
 
 TEST(Shortened, TapesShortenFurtherInSmallerRegions) {
   const Tape full = tape_of(scattered_discs(20, 0.01));
-  Shortener shortener(full);
+  Shortener shortener;
+  shortener.begin(full);
   Region large, small;
   large.centre[0] = small.centre[0] = 8;
   large.centre[1] = small.centre[1] = 8;
@@ -153,11 +156,11 @@ TEST(Shortened, TapesShortenFurtherInSmallerRegions) {
   small.reach = 0.1F;
   Tape half = full, least = full, at_once = full;
   shortener.analyse(full, *default_target().kernels, {&large, 1});
-  shortener.shorten(full, 0, half);
+  shortener.shorten(0, half);
   shortener.analyse(half, *default_target().kernels, {&small, 1});
-  shortener.shorten(half, 0, least);
+  shortener.shorten(0, least);
   shortener.analyse(full, *default_target().kernels, {&small, 1});
-  shortener.shorten(full, 0, at_once);
+  shortener.shorten(0, at_once);
   EXPECT_LT(half.instructions.size(), full.instructions.size() / 2);
   EXPECT_LT(least.instructions.size(), half.instructions.size() / 4);
   EXPECT_LE(least.instructions.size(), at_once.instructions.size() + 2);

@@ -1,0 +1,242 @@
+// SPDX-FileCopyrightText: The thalweg authors
+// SPDX-License-Identifier: MIT
+//
+// Which instructions can decide the value over a region, many regions at once: one pass backwards over the tape
+// carries, for the accumulator and each register, the range of values that matter to what comes later. Of min(a, b)
+// < c only values below c do. An operand whose interval lies outside of what can matter is not needed, nor is then
+// what only it needed.
+//
+// Why the bits stay. Say only values of min(a, b) up to C matter, and b > C all over the region. Where a <= C the
+// result is a with or without b; elsewhere it is above C with or without b. A blend of width w is exact where its
+// operands are further apart than w and lowers the result by w / 4 at the most: with b > C + 2w, either a <= C + w and
+// the result is a, or it is above C both times. Maxima mirror this. At the root the caller says what matters.
+// Included once per SIMD target.
+#if defined(THALWEG_KERNELS_RELEVANCE_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef THALWEG_KERNELS_RELEVANCE_INL
+#undef THALWEG_KERNELS_RELEVANCE_INL
+#else
+#define THALWEG_KERNELS_RELEVANCE_INL
+#endif
+
+#include <array>
+#include <cstring>
+#include <limits>
+
+#include "kernels/interpreter.inl"
+#include "kernels/regions.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace thalweg {
+namespace HWY_NAMESPACE {
+
+/// What the pass asks of an op.
+enum class Part : uint8_t { move, leaf, whole, choice, load, keep };
+struct Role {
+  Part part = Part::leaf;
+  bool greatest = false;      ///< of a choice
+  bool second_falls = false;  ///< of a choice
+  bool blends = false;        ///< of a choice
+};
+
+template <class Declared>
+consteval Role role_of() {
+  constexpr OpKind kKind = Declared::kDeclaration.kind;
+  if constexpr (kMovesPosition<Declared>) {
+    return {.part = Part::move};
+  } else if constexpr (kKind == OpKind::combine) {
+    return {.part = Part::choice,
+            .greatest = Declared::kSelection == Selection::greatest,
+            .second_falls = Declared::kTrend[1] < 0,
+            .blends = Declared::kBlends};
+  } else {
+    return {.part = kKind == OpKind::map ? Part::whole : Part::leaf};
+  }
+}
+
+inline constexpr auto kRoles = []<int... I>(std::integer_sequence<int, I...>) {
+  return std::array<Role, kOpCount>{role_of<Op<I>>()...};
+}
+(std::make_integer_sequence<int, kOpCount>());
+
+HWY_INLINE Role role_of(const Instruction& in) {
+  if (in.op < kOpCount) return kRoles[in.op];
+  return {.part = in.op == Instruction::kLoad ? Part::load : Part::keep};
+}
+
+HWY_INLINE uint32_t bits_of(PackMask<1> m) {
+  uint8_t bytes[8] = {};
+  hn::StoreMaskBits(F32(), m.m, bytes);
+  uint32_t bits;
+  std::memcpy(&bits, bytes, sizeof bits);
+  return bits;
+}
+template <int W>
+HWY_INLINE uint32_t bits_of(PackMask<W> m) {
+  return bits_of(m.lo) | bits_of(m.hi) << pack_lanes<W / 2>();
+}
+
+template <class T>
+HWY_INLINE Interval<T> mirrored(Interval<T> a) {
+  return {-a.hi, -a.lo};
+}
+template <class T>
+HWY_INLINE Interval<T> hull(Interval<T> a, Interval<T> b) {
+  return {min(a.lo, b.lo), max(a.hi, b.hi)};
+}
+/// The end points lie `apart` floats from each other.
+template <class T>
+HWY_INLINE Interval<T> load_interval(const float* from, size_t apart) {
+  return {Make<T>::load(from), Make<T>::load(from + apart)};
+}
+template <class T>
+HWY_INLINE void store_interval(Interval<T> a, float* to, size_t apart) {
+  store(a.lo, to);
+  store(a.hi, to + apart);
+}
+/// b without a.
+template <int W>
+HWY_INLINE PackMask<W> without(PackMask<W> b, PackMask<W> a) {
+  return differ(b, both(a, b));
+}
+/// a + b for bounds from above: the sum and two roundings of it.
+template <class T>
+HWY_INLINE T add_up(T a, T b) {
+  const T sum = a + b;
+  return mul_add(min(abs(sum), Make<T>::set(3e38F)), Make<T>::set(0x1p-22F), sum);
+}
+
+/// The pass over one chunk of regions.
+template <class T>
+class Relevance {
+ public:
+  /// `record` ends with the operands of the last choice: intervals of both, as if for the least of two.
+  Relevance(const Tape& tape, const RegionWork& work, const float* record_end, T gap, size_t chunk)
+      : tape_(tape), work_(work), record_(record_end), gap_(gap), shift_(chunk * lanes_of<T>()), chunk_(chunk) {}
+
+  HWY_INLINE void run(Interval<T> root) {
+    accumulator_ = root;
+    for (size_t i = tape_.instructions.size(); i-- > 0;) {
+      const InstructionUse use = step(tape_.instructions[i]);
+      InstructionUse& all = work_.use[i];
+      if (chunk_ == 0) {
+        all = use;
+      } else {
+        all.run |= use.run << shift_;
+        all.stored |= use.stored << shift_;
+        all.accumulator |= use.accumulator << shift_;
+        all.operand |= use.operand << shift_;
+      }
+    }
+    work_.positions[0] = 0;
+  }
+
+ private:
+  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  static HWY_INLINE Interval<T> nothing() { return {Make<T>::set(kInfinity), Make<T>::set(-kInfinity)}; }
+  static HWY_INLINE Interval<T> everything() { return {Make<T>::set(-kInfinity), Make<T>::set(kInfinity)}; }
+  template <class M>
+  static HWY_INLINE Interval<T> where(M m, Interval<T> a) {
+    return {select(m, a.lo, nothing().lo), select(m, a.hi, nothing().hi)};
+  }
+
+  HWY_INLINE float* range(uint16_t slot) const { return work_.ranges + slot * 2 * kRegionLanes; }
+  HWY_INLINE void require(uint16_t slot, Interval<T> values) {
+    const auto all = hull(load_interval<T>(range(slot), kRegionLanes), values);
+    store_interval(all, range(slot), kRegionLanes);
+  }
+
+  HWY_INLINE InstructionUse step(const Instruction& in) {
+    const Role role = role_of(in);
+    InstructionUse use;
+    if (role.part == Part::move) {
+      use.run = use.stored = use.accumulator = use.operand = work_.positions[in.target];
+      work_.positions[in.target] = 0;
+      work_.positions[in.operand] |= use.run;
+      return use;
+    }
+    if (role.part == Part::choice) record_ -= 4 * lanes_of<T>();
+    Interval<T> matters = accumulator_;
+    if (in.target != Instruction::kNone) {
+      const auto stored = load_interval<T>(range(in.target), kRegionLanes);
+      use.stored = bits_of(stored.lo <= stored.hi);
+      if (use.stored != 0) store_interval(nothing(), range(in.target), kRegionLanes);
+      matters = hull(matters, stored);
+    }
+    const auto live = matters.lo <= matters.hi;
+    use.run = bits_of(live);
+    if (use.run == 0) return use;
+    const Interval<T> read_next = accumulator_;
+    accumulator_ = nothing();
+    switch (role.part) {
+      case Part::choice:
+        choose(in, role, live, matters, use);
+        break;
+      case Part::keep:
+        use.accumulator = use.run;
+        accumulator_ = matters;
+        break;
+      case Part::load:
+        use.operand = use.run;
+        require(in.operand, where(live, matters));
+        break;
+      case Part::whole:
+        use.accumulator = use.operand = use.run;
+        accumulator_ = where(live, everything());
+        break;
+      default:
+        use.accumulator = use.operand = use.run;
+        work_.positions[in.operand] |= use.run;
+    }
+    if (role.part >= Part::choice) leave_out_idle(in, read_next, use);
+    return use;
+  }
+
+  /// What only keeps the accumulator runs where it stores it; what loads a register into itself, where the accumulator
+  /// is read.
+  HWY_INLINE void leave_out_idle(const Instruction& in, Interval<T> read_next, InstructionUse& use) const {
+    use.run &= use.operand | use.stored;
+    if (in.operand == in.target) use.run &= use.accumulator | bits_of(read_next.lo <= read_next.hi);
+  }
+
+  template <class M>
+  HWY_INLINE void choose(const Instruction& in, Role role, M live, Interval<T> matters, InstructionUse& use) {
+    const auto first = load_interval<T>(record_, lanes_of<T>());
+    const auto second = load_interval<T>(record_ + 2 * lanes_of<T>(), lanes_of<T>());
+    if (role.greatest) matters = mirrored(matters);
+    T first_most = min(matters.hi, second.hi);
+    T second_most = min(matters.hi, first.hi);
+    if (role.blends) {
+      const T width = Make<T>::set(tape_.constants[in.constants]);
+      const T most = add_up(matters.hi, width + width);
+      first_most = min(most, add_up(second.hi, width));
+      second_most = min(most, add_up(first.hi, width));
+    }
+    const M second_out = add_up(second_most, gap_) < second.lo;
+    // Without the first operand a falling one would be left, which no load can negate.
+    const M first_out = without(add_up(first_most, gap_) < first.lo, second_out);
+    const M needs_second = without(live, second_out);
+    const M needs_first = role.second_falls ? live : without(live, first_out);
+    Interval<T> of_first = where(needs_first, {matters.lo, first_most});
+    Interval<T> of_second = where(needs_second, {matters.lo, second_most});
+    if (role.greatest) of_first = mirrored(of_first);
+    if (role.greatest != role.second_falls) of_second = mirrored(of_second);
+    const bool swapped = (in.flags & Instruction::kSwapped) != 0;
+    accumulator_ = swapped ? of_first : of_second;
+    require(in.operand, swapped ? of_second : of_first);
+    use.accumulator = bits_of(swapped ? needs_first : needs_second);
+    use.operand = bits_of(swapped ? needs_second : needs_first);
+  }
+
+  const Tape& tape_;
+  const RegionWork& work_;
+  const float* record_;
+  T gap_;
+  size_t shift_, chunk_;
+  Interval<T> accumulator_{};
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace thalweg
+HWY_AFTER_NAMESPACE();
+
+#endif
