@@ -23,12 +23,12 @@ struct Golden {
 // One row a line, as the failing test prints it.
 // clang-format off
 inline constexpr Golden kGolden[] = {
-    {"triangles2_verdict", 0xa62991e44b25ccf5, 0x08ce63a144b8ade7},
-    {"triangles2_deepest", 0xbb69bba36ed054a8, 0x22c9d2c12bf6dc60},
+    {"triangles2_verdict", 0x166f40789b5b76dd, 0xa399fabe3228f024},
+    {"triangles2_deepest", 0x8601fc88f95484c1, 0xce15bea4fc8221a0},
     {"triangles3_verdict", 0xd89614aa02ecc981, 0x19ae370c527d955b},
     {"triangles3_deepest", 0xc2a67d0ce389b7db, 0x14877518ae12d851},
-    {"circles2_verdict", 0xdf635dbc890d97a7, 0x2d0e64366bfdf52c},
-    {"circles2_deepest", 0x7ac6bdc12cd3b828, 0x467c9ed8ff70f912},
+    {"circles2_verdict", 0xe4f03e2ed19cbb48, 0xa6f9f41b95af3be1},
+    {"circles2_deepest", 0x5dbde8580b3ee7b1, 0x2cf356d381055213},
     {"spheres3_verdict", 0xab5666e36733dfc1, 0x7eff118b9a2e922e},
     {"spheres3_deepest", 0x8a05aeb1c874d519, 0x8724ca78326f48b7},
     {"circles2_published", 0x567e18570b028a40, 0x1e0cd9b836480b94},

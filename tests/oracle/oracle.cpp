@@ -124,6 +124,7 @@ struct Field::Builder {
       }
       node.primitive = entry.evaluate;
       node.convex = entry.convex != nullptr && entry.convex(node.numbers.data());
+      node.never_negative = entry.never_negative;
       return;
     }
     throw std::invalid_argument("oracle: unknown op " + std::string(shape.op()));
@@ -267,6 +268,7 @@ Interval Field::enclose_primitive(const Node& node, const Cell& cell) const {
   double reach = 0;
   for (std::size_t i = 0; i < cell.count; ++i) reach = std::max(reach, distance(cell.corners[i], cell.centre));
   Interval result{value - reach, value + reach};
+  if (node.never_negative) result.lower = std::max(result.lower, 0.0);
   if (!node.convex) return result;
   double at_corners = -kInfinity, at_mirrored = -kInfinity;
   for (std::size_t i = 0; i < cell.count; ++i) {

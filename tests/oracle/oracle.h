@@ -8,7 +8,8 @@
 // Bounds used here: every op of the language keeps the Lipschitz constant 1, so |f(x) - f(c)| <= |x - c|. Over a cell
 // that the placements map to vertices v_i around the sample c, a convex primitive also obeys, without any gradient,
 //   2 f(c) - max f(2c - v_i) <= f(x) <= max f(v_i),
-// and the operators are monotone, so they act on the ends of the operands' intervals.
+// one without an inside is at least 0, and the operators are monotone, so they act on the ends of the operands'
+// intervals.
 #pragma once
 
 #include <array>
@@ -70,6 +71,7 @@ class Field {
     Kind kind = Kind::primitive;
     Primitive primitive = nullptr;
     bool convex = false;
+    bool never_negative = false;
     std::vector<double> numbers;
     std::vector<std::size_t> operands;
     std::array<double, 9> turn = {1, 0, 0, 0, 1, 0, 0, 0, 1};  // world to local, row-major

@@ -178,7 +178,7 @@ constexpr PrimitiveEntry kPrimitives[] = {
     {"circle", 2, "radius", circle, always},
     {"box", 2, "half_size", box2, always},
     {"rounded_box", 2, "half_size radii", rounded_box, always},
-    {"segment", 2, "a b", segment, always},
+    {"segment", 2, "a b", segment, always, true},
     {"triangle", 2, "a b c", polygon, always},
     {"polygon", 2, "points", polygon, nullptr},
     {"star", 2, "radius points sharpness", star, nullptr},

@@ -20,6 +20,7 @@ struct PrimitiveEntry {
   Field::Primitive evaluate = nullptr;
   /// Whether f is a convex function for these numbers; null: never.
   bool (*convex)(const double* numbers) = nullptr;
+  bool never_negative = false;
 };
 
 [[nodiscard]] std::span<const PrimitiveEntry> primitives();

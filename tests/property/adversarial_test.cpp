@@ -66,6 +66,14 @@ std::vector<Hard> hard_cases() {
        circle(1),
        {1.5F, 0, 1.5000001F, 0, 1.5F, 1e-7F, 0.5F, 0, 0.5000001F, 0, 0.5F, 1e-7F},
        {kApart, kOver}},
+      {"unsigned_segment",
+       segment({0, 0}, {3, 1}),
+       {-1, -1, 4, -1, 1, 4, 1, 0, 1, 1, 5, 3, 0, 1, 1, 1, 0, 2},
+       {kTouch, kTouch, kApart}},
+      {"unsigned_segment_beside_a_disc",
+       segment({0, 0}, {3, 1}) | circle(1).translate(Vec2{0, 4}),
+       {-1, -1, 4, -1, 1, 2, 0, 0, 1, 0, 0, 3.5F, 5, 0, 6, 0, 5, 1},
+       {kTouch, kOver, kApart}},
       {"thin_shell", onion(sphere(2), 1e-3), {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 3, 0, 0, 0, 3, 0}, {kApart, kOver}},
   };
 }

@@ -209,12 +209,14 @@ struct EnclosureMode {
   /// f lies within the reach of its value at the centre (every primitive is 1-Lipschitz). Two facts say more.
   /// The signed distance of a convex set is the greatest of u . p - h(u) over unit u, h its support function: any u
   /// gives a lower bound, and the gradient at the centre a tight one. And an exact depth is at most the distance to
-  /// any one point of the surface: to c - f grad f, the closest one of the centre, it is again tight.
+  /// any one point of the surface: to c - f grad f, the closest one of the centre, it is again tight. What is unsigned
+  /// is nowhere below 0.
   template <class Declared>
   HWY_INLINE Register primitive(const Machine<T>& m, const Instruction& in, Point<T, D> p, Constants<T> c) const {
     const Field<T, D> f = Declared::field(p, c);
     const T reach = cell.reach();
     T lo = f.value - reach;
+    if constexpr (Declared::kDeclaration.is_unsigned) lo = max(lo, zero<T>());
     if ((in.flags & (Instruction::kSupport | Instruction::kDepth)) != 0) {
       const auto u = f.gradient;
       const auto slope = pull_back<T, D>(m, in.operand, u);

@@ -35,7 +35,6 @@ struct PrimitiveFacts {
   Exactness outside = Exactness::exact;
   Exactness inside = Exactness::exact;
   bool convex = false;
-  bool is_unsigned = false;
 };
 
 /// Facts that an operator derives from its operands; dimension, bounds and Lipschitz constant are derived for it.
@@ -75,6 +74,7 @@ struct Declaration {
   /// The parameters describe the op in any orientation (points, directions, or full symmetry): rotations need no
   /// instruction of their own.
   bool absorbs_rotation = false;
+  bool is_unsigned = false;  ///< a primitive whose f is never negative
 };
 
 consteval OpParameter size(std::string_view name, std::string_view meaning, int arity = 1) {

@@ -119,9 +119,10 @@ THALWEG_OP {
                                             .dimension = 2,
                                             .exactness = "exact, unsigned",
                                             .note = "has no inside: give it `round`",
-                                            .absorbs_rotation = true};
+                                            .absorbs_rotation = true,
+                                            .is_unsigned = true};
   static constexpr OpParameter kParameters[] = {point("a", "one end", 2), point("b", "the other end", 2)};
-  static PrimitiveFacts facts(Numbers) { return {.convex = true, .is_unsigned = true}; }
+  static PrimitiveFacts facts(Numbers) { return {.convex = true}; }
   static Bounds bounds(Numbers p) { return point_bounds(p, 2); }
   static void derive(Numbers p, Constants64 & c) { c = {p[2], p[3], inverse_or_zero(p[2] * p[2] + p[3] * p[3])}; }
 

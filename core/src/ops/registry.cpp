@@ -64,6 +64,7 @@ Entry make_entry() {
                .note = declared.note,
                .rounding = declared.rounding};
   entry.absorbs_rotation = declared.absorbs_rotation;
+  entry.is_unsigned = declared.is_unsigned;
   if constexpr (requires(Numbers p) { Op::check(p); }) entry.check = &Op::check;
   if constexpr (declared.kind == OpKind::primitive) {
     fill_primitive<Op>(entry);

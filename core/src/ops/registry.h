@@ -16,6 +16,7 @@ struct Entry {
   OpRow row;
   bool absorbs_rotation = false;
   bool has_support = false;
+  bool is_unsigned = false;
   std::optional<Complaint> (*check)(Numbers) = nullptr;
   void (*derive)(Numbers, Constants64&) = nullptr;
 

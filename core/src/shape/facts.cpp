@@ -123,7 +123,7 @@ Facts derive_facts(const Shape& shape) {
   Facts facts;
   if (entry.row.kind == OpKind::primitive) {
     const ops::PrimitiveFacts own = entry.primitive_facts(shape.parameters());
-    facts = {entry.row.dimension, own.outside, own.inside, 1.0, own.convex, own.is_unsigned, {}};
+    facts = {entry.row.dimension, own.outside, own.inside, 1.0, own.convex, entry.is_unsigned, {}};
   } else {
     const ops::JoinedFacts own = own_facts(shape, entry);
     facts = {shape.operands()[0].dimension(), own.outside, own.inside, 0.0, own.convex, own.is_unsigned, {}};
