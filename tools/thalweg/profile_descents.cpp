@@ -7,6 +7,7 @@
 
 #include "collide_result.h"
 #include "profile_strategies.h"
+#include "thalweg/method_table.h"
 
 namespace thalweg::cli {
 
@@ -15,7 +16,10 @@ namespace {
 constexpr int kRuns = 3;
 constexpr double kReferenceTolerance = 1e-6;  // in diagonals
 
-constexpr Method kMethods[] = {Method::thesis, Method::projected};
+/// Local methods over triangles that ask for a gradient: golden section along the edges does not.
+bool takes_gradients(const MethodRow& row) {
+  return row.triangles && !row.proves && row.method != Method::golden_section;
+}
 
 class Contest {
  public:
@@ -96,9 +100,10 @@ std::vector<DescentProfile> profile_descents(const Tape& tape, const std::vector
                                              const ProbeOffset& offset, const Globals& globals) {
   const Contest contest(tape, triangles, globals);
   std::vector<DescentProfile> profiles;
-  for (const Method method : kMethods) {
+  for (const MethodRow& row : method_table()) {
+    if (!takes_gradients(row)) continue;
     for (const Gradient strategy : strategies_of(tape.dimension)) {
-      profiles.push_back(contest.profile(method, strategy, offset));
+      profiles.push_back(contest.profile(row.method, strategy, offset));
     }
   }
   return profiles;

@@ -21,7 +21,7 @@ struct DescentProfile {
   double iterations = 0, evaluations = 0, nanoseconds = 0;  ///< a triangle; one thread
 };
 
-/// Every local method over triangles, with every strategy of the scene's dimension.
+/// Every local method over triangles that takes gradients, with every strategy of the scene's dimension.
 [[nodiscard]] std::vector<DescentProfile> profile_descents(const Tape& tape, const std::vector<float>& triangles,
                                                            const ProbeOffset& offset, const Globals& globals);
 

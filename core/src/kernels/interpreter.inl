@@ -78,6 +78,10 @@ HWY_INLINE Point<T, 3> translated(Point<T, 3> p, Constants<T> c) {
 template <class Op, int D>
 inline constexpr bool kApplies = Op::kDeclaration.dimension == 0 || Op::kDeclaration.dimension == D;
 
+/// The op of that number; the cases beyond the last op are given the first one and discarded.
+template <int I>
+using OpAt = Op<(I < kOpCount ? I : 0)>;
+
 /// True for ops that are instructions on positions.
 template <class Op>
 inline constexpr bool kMovesPosition = Op::kDeclaration.kind == OpKind::warp ||
@@ -113,9 +117,9 @@ HWY_INLINE Point<T, D> pull_back(const Machine<T>& m, size_t slot, Point<T, D> g
     const Constants<T> c{m.pool + made.constants, made.constant_count};
     const auto p = load_point<T, D>(m.positions + made.operand * D * lanes_of<T>());
     switch (made.op) {
-#define THALWEG_CASE(I)                                    \
-  case I:                                                  \
-    g = pull_through<Op<(I < kOpCount ? I : 0)>>(p, c, g); \
+#define THALWEG_CASE(I)                 \
+  case I:                               \
+    g = pull_through<OpAt<I>>(p, c, g); \
     break;
       THALWEG_CASES_64(THALWEG_CASE, 0)
 #undef THALWEG_CASE
@@ -309,7 +313,7 @@ HWY_INLINE typename Mode::Register run(const Mode& mode, const Machine<typename 
 #define THALWEG_CASE(I)                                 \
   case I:                                               \
     if constexpr (I < kOpCount) {                       \
-      using Declared = Op<(I < kOpCount ? I : 0)>;      \
+      using Declared = OpAt<I>;                         \
       step<Declared>(mode, m, *in, acc);                \
       if constexpr (kMovesPosition<Declared>) continue; \
     }                                                   \
