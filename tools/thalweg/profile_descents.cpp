@@ -40,6 +40,7 @@ class Contest {
   [[nodiscard]] DescentProfile profile(Method method, Gradient strategy, const ProbeOffset& offset) const {
     CollideOptions options;
     options.method = method;
+    options.goal = Goal::deepest;  // or `accelerated` ends at the first negative value
     options.gradient = strategy;
     options.gradient_given = true;
     options.gradient_offset = offset;
