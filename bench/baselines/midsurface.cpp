@@ -4,94 +4,107 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace thalweg::bench {
 namespace {
 
-constexpr double kFirstStep = 2;
+constexpr double kStep = 2;  // halved before the first trial
 constexpr double kLastStep = 1e-4;
 constexpr double kArmijo = 0.1;
+/// Contacts closer than this are one.
+constexpr double kSamePoint = 1e-15;
+/// A gradient beyond this ends a descent.
+constexpr double kLargest = 1e10;
 
-struct V3 {
-  double x = 0, y = 0, z = 0;
-};
-V3 operator+(V3 a, V3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-V3 operator*(V3 a, double s) { return {a.x * s, a.y * s, a.z * s}; }
-double square(V3 a) { return a.x * a.x + a.y * a.y + a.z * a.z; }
+double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-struct Sample {
-  double value = 0;
-  V3 gradient;
-};
-
-double torus_value(const Torus& t, V3 p) {
-  const double ring = std::sqrt(p.x * p.x + p.z * p.z) - t.radius;
-  return std::sqrt(ring * ring + p.y * p.y) - t.tube;
+void normalise(double* v) {
+  const double length = std::sqrt(dot(v, v));
+  for (int i = 0; i < 3; ++i) v[i] = length < kSamePoint ? (i == 0 ? 1.0 : 0.0) : v[i] / length;
 }
 
-Sample torus_sample(const Torus& t, V3 p) {
-  const double axis = std::sqrt(p.x * p.x + p.z * p.z);
-  const double ring = axis - t.radius;
-  const double r = std::sqrt(ring * ring + p.y * p.y);
-  const double radial = r > 0 && axis > 0 ? ring / (r * axis) : 0;
-  return {r - t.tube, {p.x * radial, r > 0 ? p.y / r : 0, p.z * radial}};
-}
+/// The function that a descent goes down.
+enum class Objective { collision, intersection };
 
-V3 into_b(const TorusPose& pose, V3 p) {
-  const double x = p.x - pose.offset[0], y = p.y - pose.offset[1], z = p.z - pose.offset[2];
-  const double* m = pose.turn;
-  return {m[0] * x + m[3] * y + m[6] * z, m[1] * x + m[4] * y + m[7] * z, m[2] * x + m[5] * y + m[8] * z};
-}
-
-V3 out_of_b(const TorusPose& pose, V3 v) {
-  const double* m = pose.turn;
-  return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z,
-          m[6] * v.x + m[7] * v.y + m[8] * v.z};
-}
-
-class Descent {
+class PairOfFields {
  public:
-  Descent(const Torus& torus, const TorusPose& pose) : torus_(torus), pose_(pose) {}
+  PairOfFields(const FieldPlugin& a, const FieldPlugin& b, const TorusPose& pose) : a_(a), b_(b), pose_(pose) {}
 
-  V3 from(V3 p, int iterations) const {
-    for (int k = 0; k < iterations; ++k) {
-      if (!step(p, false)) break;
+  [[nodiscard]] double value(Objective of, const double* p) const {
+    double in_b[3];
+    into_b(p, in_b);
+    const double a = a_.distance(p, a_.shape), b = b_.distance(in_b, b_.shape);
+    const double greater = std::max(a, b);
+    return of == Objective::intersection ? greater : a + b + std::fabs(greater);
+  }
+
+  void slope(Objective of, const double* p, double* g) const {
+    double in_b[3], of_a[3], of_b[3];
+    into_b(p, in_b);
+    const double a = a_.distance(p, a_.shape), b = b_.distance(in_b, b_.shape);
+    if (of == Objective::intersection) {
+      if (a > b) return a_.gradient(g, p, a_.shape);
+      b_.gradient(of_b, in_b, b_.shape);
+      return out_of_b(of_b, g);
     }
-    step(p, true);
-    return p;
+    a_.gradient(of_a, p, a_.shape);
+    b_.gradient(g, in_b, b_.shape);
+    out_of_b(g, of_b);
+    const double* of_greater = a > b ? of_a : of_b;
+    const double sign = std::max(a, b) > 0 ? 1 : -1;
+    for (int i = 0; i < 3; ++i) g[i] = of_a[i] + of_b[i] + sign * of_greater[i];
+  }
+
+  void normal(const double* p, double* n) const {
+    double in_b[3], of_a[3], of_b[3];
+    into_b(p, in_b);
+    a_.gradient(of_a, p, a_.shape);
+    normalise(of_a);
+    b_.gradient(n, in_b, b_.shape);
+    out_of_b(n, of_b);
+    normalise(of_b);
+    for (int i = 0; i < 3; ++i) n[i] = of_a[i] - of_b[i];
+    normalise(n);
   }
 
  private:
-  [[nodiscard]] double objective(V3 p, bool last) const {
-    const double a = torus_value(torus_, p), b = torus_value(torus_, into_b(pose_, p));
-    const double greater = std::max(a, b);
-    return last ? greater : a + b + std::fabs(greater);
+  void into_b(const double* p, double* q) const {
+    const double v[3] = {p[0] - pose_.offset[0], p[1] - pose_.offset[1], p[2] - pose_.offset[2]};
+    const double* m = pose_.turn;
+    for (int i = 0; i < 3; ++i) q[i] = m[i] * v[0] + m[3 + i] * v[1] + m[6 + i] * v[2];
+  }
+  void out_of_b(const double* v, double* w) const {
+    for (int i = 0; i < 3; ++i) w[i] = dot(pose_.turn + 3 * i, v);
   }
 
-  /// One step down the gradient, halved until Armijo's rule holds; false when none does.
-  bool step(V3& p, bool last) const {
-    const Sample a = torus_sample(torus_, p);
-    Sample b = torus_sample(torus_, into_b(pose_, p));
-    b.gradient = out_of_b(pose_, b.gradient);
-    const double greater = std::max(a.value, b.value);
-    const V3 of_greater = a.value > b.value ? a.gradient : b.gradient;
-    const double before = last ? greater : a.value + b.value + std::fabs(greater);
-    const V3 slope = last ? of_greater : a.gradient + b.gradient + of_greater * (greater < 0 ? -1.0 : 1.0);
-    const double fall = kArmijo * square(slope);
-    if (fall == 0) return false;
-    for (double length = kFirstStep; length >= kLastStep; length *= 0.5) {
-      const V3 to = p + slope * -length;
-      if (objective(to, last) - before > -fall * length) continue;
-      p = to;
-      return true;
-    }
-    return false;
-  }
-
-  const Torus& torus_;
+  const FieldPlugin& a_;
+  const FieldPlugin& b_;
   const TorusPose& pose_;
 };
+
+/// Goes down from p, in place; returns the objective at the last trial.
+double descend(const PairOfFields& pair, Objective of, double* p, int iterations) {
+  double reached = std::numeric_limits<double>::max();
+  for (int k = 0; k < iterations; ++k) {
+    double g[3];
+    pair.slope(of, p, g);
+    if (!(std::fabs(g[0]) <= kLargest && std::fabs(g[1]) <= kLargest && std::fabs(g[2]) <= kLargest)) return kLargest;
+    const double from[3] = {p[0], p[1], p[2]};
+    const double before = pair.value(of, from);
+    double step = kStep;
+    double enough = -kArmijo * step * dot(g, g);
+    do {
+      step /= 2;
+      enough /= 2;
+      for (int i = 0; i < 3; ++i) p[i] = from[i] - step * g[i];
+      reached = pair.value(of, p);
+    } while (step > kLastStep && reached - before > enough);
+    if (before < reached) return reached;
+  }
+  return reached;
+}
 
 double halton(int index, int base) {
   double digit = 1.0 / base, result = 0;
@@ -110,6 +123,15 @@ bool overlap(const Torus& t, const TorusPose& pose, double* lo, double* hi) {
     if (lo[i] > hi[i]) return false;
   }
   return true;
+}
+
+bool is_known(const MidsurfaceAnswer& answer, const double* p) {
+  for (std::size_t i = 0; i < answer.contacts; ++i) {
+    const double* q = answer.contact[i].point;
+    const double v[3] = {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+    if (std::sqrt(dot(v, v)) < kSamePoint) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -131,8 +153,8 @@ TorusPose torus_pose(const float* row) {
 }
 
 double common_value(const Torus& torus, const TorusPose& pose, const double* point) {
-  const V3 p{point[0], point[1], point[2]};
-  return std::max(torus_value(torus, p), torus_value(torus, into_b(pose, p)));
+  const FieldPlugin plugin = torus_plugin(torus);
+  return PairOfFields(plugin, plugin, pose).value(Objective::intersection, point);
 }
 
 MidsurfaceAnswer midsurface(const Torus& torus, const TorusPose& pose, const MidsurfaceOptions& options) {
@@ -140,17 +162,19 @@ MidsurfaceAnswer midsurface(const Torus& torus, const TorusPose& pose, const Mid
   answer.value = std::numeric_limits<double>::infinity();
   double lo[3], hi[3];
   if (!overlap(torus, pose, lo, hi)) return answer;
-  const Descent descent(torus, pose);
-  for (int start = 1; start <= options.starts; ++start) {
-    const V3 from{lo[0] + (hi[0] - lo[0]) * halton(start, 2), lo[1] + (hi[1] - lo[1]) * halton(start, 3),
-                  lo[2] + (hi[2] - lo[2]) * halton(start, 5)};
-    const V3 p = descent.from(from, options.iterations);
-    const double point[3] = {p.x, p.y, p.z};
-    const double value = common_value(torus, pose, point);
-    answer.contacts += value <= 0 ? 1 : 0;
-    if (value >= answer.value) continue;
-    answer.value = value;
-    std::copy_n(point, 3, answer.point);
+  const FieldPlugin plugin = torus_plugin(torus);
+  const PairOfFields pair(plugin, plugin, pose);
+  for (int start = 0; start < options.starts; ++start) {
+    double p[3];
+    for (int i = 0; i < 3; ++i) p[i] = lo[i] + (hi[i] - lo[i]) * halton(start, i == 0 ? 2 : i == 1 ? 3 : 5);
+    descend(pair, Objective::collision, p, options.iterations);
+    const double value = descend(pair, Objective::intersection, p, 1);
+    answer.value = std::min(answer.value, value);
+    if (value > 0 || answer.contacts == std::size(answer.contact) || is_known(answer, p)) continue;
+    MidsurfaceContact& contact = answer.contact[answer.contacts++];
+    std::copy_n(p, 3, contact.point);
+    contact.value = value;
+    pair.normal(p, contact.normal);
   }
   answer.overlaps = answer.value <= 0;
   return answer;

@@ -214,6 +214,62 @@ TEST(CertifiedPairs, RefusesTwoUnboundedShapes) {
   EXPECT_EQ(refused.error().found, "two unbounded shapes");
 }
 
+/// Discs here and there: two such shapes overlap in several places.
+Shape scattered_discs(oracle::Random& random) {
+  const auto disc = [&] {
+    return circle(random.uniform(0.2, 0.6)).translate(Vec2{random.uniform(-2, 2), random.uniform(-2, 2)});
+  };
+  return disc() | disc() | disc() | disc() | disc() | disc();
+}
+
+TEST(CertifiedPairs, RegionsOfRandomScenesHoldOnTheGrid) {
+  oracle::Random random(20261125);
+  const int rows = rows_of_a_run(60, 900);
+  int checked = 0, several = 0;
+  for (int row = 0; row < rows; ++row) {
+    RandomPair pair(random, 2, 1 + row % 12);
+    if (row % 2 == 0) {
+      pair.a = scattered_discs(random);
+      pair.b = scattered_discs(random);
+      pair.pose = {static_cast<float>(random.uniform(-1, 1)), static_cast<float>(random.uniform(-1, 1)), 0.3F};
+    }
+    SCOPED_TRACE(pair.describe());
+    const AskedPairs asked(pair.a, pair.b, pair.pose, Goal::deepest);
+    const oracle::Box box = common_box(asked.a);
+    const double longest = std::max(box.hi.x - box.lo.x, box.hi.y - box.lo.y);
+    const int count = static_cast<int>(2.5 * longest / asked.region) + 2;
+    if (count > 400 || asked.converged[0] == 0 || asked.found[0] > AskedPairs::kContacts) continue;
+    const Truth truth(pair.a, pair.b, pair.pose.data(), box, count);
+    expect_regions_hold(truth, asked, 0);
+    ++checked;
+    several += asked.found[0] > 1 ? 1 : 0;
+  }
+  EXPECT_GT(checked, rows / 2);
+  EXPECT_GT(several, rows / 8);
+}
+
+TEST(CertifiedPairs, EqualOverlapsShallowerThanTheRegionAreContactsEach) {
+  // A bar that rests on two discs, far less deep in them than --region.
+  const Shape discs = circle(1).translate(Vec2{-2, 0}) | circle(1).translate(Vec2{2, 0});
+  const AskedPairs asked(discs, box({2.5, 0.3}), {0, 1.29F, 0, 0, 1.29F, 0.001F}, Goal::deepest);
+  for (std::size_t row = 0; row < asked.count; ++row) {
+    ASSERT_EQ(asked.contacts_of(row), 2U);
+    for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(std::fabs(asked.contact_at(row, k).x), 2, 0.1);
+  }
+}
+
+TEST(CertifiedPairs, ARowThatNeedsMoreThanItsBudgetSaysSo) {
+  // The rings' circles cross nowhere and run along each other: a long flat valley.
+  const Shape shape = torus(0.35, 0.15);
+  const AskedPairs asked(shape, shape, {0.001F, 0.05F, 0, 1, 0, 0, 0}, Goal::deepest);
+  EXPECT_EQ(asked.status_at(0), Status::overlapping);
+  EXPECT_EQ(asked.converged[0], 0);
+  EXPECT_LE(asked.evaluations[0], 4096U);
+  EXPECT_GT(asked.value[0] - asked.lower[0], asked.tolerance);
+  const Truth truth(shape, shape, asked.pose_at(0), common_box(asked.a), 56);
+  expect_verdict_holds(truth, asked, 0);
+}
+
 /// The thesis' figure 6: two overlaps, and a descent that can end in one of them only.
 TEST(LocalPairs, ASingleStartMissesAnOverlapThatCertifiedReports) {
   const Shape discs = circle(1).translate(Vec2{-2, 0}) | circle(1).translate(Vec2{2, 0});

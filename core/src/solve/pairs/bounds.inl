@@ -93,23 +93,23 @@ HWY_INLINE LinearBound<D> cone_bound(V32 far_value, const V32* direction, V32 di
   return bound;
 }
 
-/// The least of w a + (1 - w) b over a box of half extent h.
+/// The least of w a + (1 - w) b over a box of half extents h.
 template <int D>
-HWY_INLINE V32 mixed(const LinearBound<D>& a, const LinearBound<D>& b, V32 weight, V32 h) {
+HWY_INLINE V32 mixed(const LinearBound<D>& a, const LinearBound<D>& b, V32 weight, const V32* h) {
   const F32 d;
   const auto other = hn::Sub(hn::Set(d, 1.0F), weight);
   auto fall = hn::Zero(d);
   for (int axis = 0; axis < D; ++axis) {
-    fall = hn::Add(fall, hn::Abs(hn::MulAdd(weight, a.slope[axis], hn::Mul(other, b.slope[axis]))));
+    const auto slope = hn::Abs(hn::MulAdd(weight, a.slope[axis], hn::Mul(other, b.slope[axis])));
+    fall = hn::MulAdd(h[axis], slope, fall);
   }
-  return hn::NegMulAdd(h, fall, hn::MulAdd(weight, a.base, hn::Mul(other, b.base)));
+  return hn::Sub(hn::MulAdd(weight, a.base, hn::Mul(other, b.base)), fall);
 }
 
-/// The best of three weights: each field alone, and the one that leaves the shortest slope.
+/// The weight that leaves the shortest slope.
 template <int D>
-HWY_INLINE V32 joint_bound(const LinearBound<D>& a, const LinearBound<D>& b, V32 h) {
+HWY_INLINE V32 shortest_weight(const LinearBound<D>& a, const LinearBound<D>& b) {
   const F32 d;
-  const auto one = hn::Set(d, 1.0F);
   V32 difference[D];
   auto along = hn::Zero(d);
   for (int axis = 0; axis < D; ++axis) {
@@ -117,7 +117,15 @@ HWY_INLINE V32 joint_bound(const LinearBound<D>& a, const LinearBound<D>& b, V32
     along = hn::MulAdd(difference[axis], b.slope[axis], along);
   }
   const auto square = hn::Max(square_of<D>(difference), hn::Set(d, 1e-12F));
-  const auto weight = hn::Min(one, hn::Max(hn::Zero(d), hn::Div(along, square)));
+  return hn::Min(hn::Set(d, 1.0F), hn::Max(hn::Zero(d), hn::Div(along, square)));
+}
+
+/// The best of three weights: each field alone, and the one that leaves the shortest slope.
+template <int D>
+HWY_INLINE V32 joint_bound(const LinearBound<D>& a, const LinearBound<D>& b, const V32* h) {
+  const F32 d;
+  const auto one = hn::Set(d, 1.0F);
+  const auto weight = shortest_weight<D>(a, b);
   const auto alone = hn::Max(mixed<D>(a, b, one, h), mixed<D>(a, b, hn::Zero(d), h));
   return hn::Max(alone, mixed<D>(a, b, weight, h));
 }
@@ -150,7 +158,9 @@ void join_bounds(const PairFrame<D>& frame, const PairPoints& points, const FarD
       const auto distance = far_distance(frame, far.b, cells, i);
       b = cone_bound<D>(hn::LoadU(d, far_points.value_b + i), turned, distance, hn::Set(d, frame.lipschitz_b), reach);
     }
-    const auto lower = hn::Sub(joint_bound<D>(a, b, h), slack);
+    V32 half[D];
+    std::fill_n(half, D, h);
+    const auto lower = hn::Sub(joint_bound<D>(a, b, half), slack);
     hn::StoreU(hn::Max(lower, hn::LoadU(d, cells.lower + i)), d, cells.lower + i);
   }
 }

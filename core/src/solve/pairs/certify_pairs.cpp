@@ -8,16 +8,36 @@
 // foreach_target must come first
 #include <hwy/highway.h>
 
+#include "solve/pairs/cohort.inl"
 #include "solve/pairs/regions.inl"
 
 HWY_BEFORE_NAMESPACE();
 namespace thalweg {
 namespace HWY_NAMESPACE {
 
+/// Rows from `begin` on that ask about the same two shapes, as many as make a cohort.
+inline size_t cohort_size(const PairTile& tile, size_t begin, size_t end) {
+  const PairShapes shapes = shapes_of(*tile.queries, begin);
+  size_t size = 1;
+  while (size < kCohortRows && begin + size < end && shapes_of(*tile.queries, begin + size) == shapes) ++size;
+  return size;
+}
+
 template <int D>
 void certify_pairs_of(const PairTile& tile, PairScratch& scratch) {
+  const size_t end = tile.begin + tile.count;
+  const bool wants_regions = tile.options->goal == Goal::deepest || tile.contacts.found != nullptr;
   PairSearch<D> search(tile, scratch);
-  for (size_t i = 0; i < tile.count; ++i) search.run(tile.begin + i);
+  PairCohort<D> cohort(tile, scratch);
+  for (size_t row = tile.begin; row < end;) {
+    const size_t count = cohort_size(tile, row, end);
+    uint32_t spent[kCohortRows] = {};
+    const uint32_t left = wants_regions ? cohort.run(row, count, scratch, spent) : ~uint32_t{0};
+    for (size_t k = 0; k < count; ++k) {
+      if ((left >> k & 1) != 0) search.run(row + k, spent[k]);
+    }
+    row += count;
+  }
 }
 
 void certify_pairs(const PairTile& tile, PairScratch& scratch) {

@@ -48,8 +48,9 @@ struct PairHeapCell {
 
 /// A worker's memory, reused from tile to tile.
 struct PairScratch {
-  Arena arena;  ///< of a tile
-  Arena query;  ///< of what grows with one query
+  Arena arena;   ///< of a tile
+  Arena query;   ///< of what grows with one query
+  Arena cohort;  ///< of rows searched side by side
   std::vector<PairHeapCell> heap;
   std::vector<std::unique_ptr<Twin>> twins;  ///< one per shape, made when first needed
 

@@ -27,6 +27,9 @@ namespace HWY_NAMESPACE {
 /// Step lengths tried at once; a chunk of gradients on no target is shorter than half of this.
 inline constexpr size_t kRungs = 16;
 inline constexpr float kRungRatio = 1.7F;
+/// Steps of a descent that looks for a witness, and of one that looks for a region's deepest point.
+inline constexpr uint32_t kWitnessSteps = 4;
+inline constexpr uint32_t kDeepestSteps = 12;
 /// Far distances tried at once.
 inline constexpr size_t kFarRungs = 8;
 

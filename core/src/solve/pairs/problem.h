@@ -26,6 +26,7 @@ struct Pose64 {
 /// The shapes of row `row`.
 struct PairShapes {
   std::size_t first = 0, second = 1;
+  bool operator==(const PairShapes&) const = default;
 };
 [[nodiscard]] PairShapes shapes_of(const PairQueries& queries, std::size_t row);
 

@@ -31,9 +31,11 @@ class PairSearch : private PairExplorer<D> {
  public:
   using Base::Base;
 
-  void run(size_t row) {
+  /// `spent` evaluations of the row's budget are gone.
+  void run(size_t row, uint32_t spent) {
     if (!prepare(*tile_.queries, *tile_.options, row, problem_)) return write_bad_row(tile_, row, D);
     this->begin();
+    evaluations_ = spent;
     row_ = {};
     found_ = lowest_ = {};
     row_index_ = row;
@@ -376,8 +378,10 @@ class PairSearch : private PairExplorer<D> {
     if (tile_.contacts.found == nullptr) return 0;
     auto* order = scratch_.query.template take<uint32_t>(regions_.count + 1);
     uint32_t found = 0;
+    // As deep as e, or as half of the deepest.
+    const float deep = std::min(static_cast<float>(problem_.limits.region), -found_.value / 2);
     for (uint32_t j = 0; j < regions_.count; ++j) {
-      if (this->is_witness(j)) order[found++] = j;
+      if (this->is_witness(j) && regions_.value[j] <= -deep) order[found++] = j;
     }
     std::sort(order, order + found, [this](uint32_t i, uint32_t j) {
       return regions_.value[i] != regions_.value[j] ? regions_.value[i] < regions_.value[j] : i < j;

@@ -34,9 +34,6 @@ inline constexpr int64_t kMostRoots = 64;
 inline constexpr uint32_t kFirstJointLevel = 2;
 /// Cells of this level are exact in float32; what is smaller goes to double.
 inline constexpr uint32_t kLastLevel = 17;
-/// Steps of a descent that looks for a witness, and of one that looks for a region's deepest point.
-inline constexpr uint32_t kWitnessSteps = 4;
-inline constexpr uint32_t kDeepestSteps = 12;
 /// Once touching is proven, one part in this many of the budget may have gone into proving more.
 inline constexpr uint32_t kTouchingShare = 4;
 
