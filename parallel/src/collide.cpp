@@ -149,7 +149,10 @@ class CollideTask final : public TileTask {
   [[nodiscard]] std::size_t ordered_tile() const { return execution_.tile == 0 ? kOrderedTile : execution_.tile; }
 
   void run_ordered(std::span<const std::uint32_t> order, Worker& worker) {
-    if (worker.ordered == nullptr) worker.ordered = std::make_unique<OrderedRows>(tape_, layout_, true);
+    if (worker.ordered == nullptr) {
+      const float around = limits_.goal == Goal::deepest ? limits_.far_reaches : 0;
+      worker.ordered = std::make_unique<OrderedRows>(tape_, layout_, true, around);
+    }
     OrderedRows& rows = *worker.ordered;
     rows.take(queries_.rows, order, ordered_tile(), *target_->kernels);
     for (std::size_t begin = 0; begin < order.size(); begin += ordered_tile()) {

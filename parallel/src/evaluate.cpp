@@ -95,7 +95,7 @@ class EvaluateTask final : public TileTask {
 
   /// Rows of the caller's columns `order` names: a tape for each tile of neighbours.
   void run_ordered(std::span<const std::uint32_t> order, Worker& worker) const {
-    if (worker.ordered == nullptr) worker.ordered = std::make_unique<OrderedRows>(tape_, layout(), false);
+    if (worker.ordered == nullptr) worker.ordered = std::make_unique<OrderedRows>(tape_, layout(), false, 0.0F);
     OrderedRows& rows = *worker.ordered;
     rows.take(points_.rows, order, kOrderedTile, *target_.kernels);
     float* scratch = worker.arena.take<float>(scratch_floats(tape_));

@@ -3,7 +3,8 @@
 //
 // Long tapes: rows are taken in spatial order, a block of neighbouring tiles at a time, and each tile is answered by a
 // tape shortened for where its rows lie. Analysing a tape costs about a value of it per region, and as many regions as
-// there are lanes cost no more than one: a block shortens once for itself, then for all of its tiles together.
+// there are lanes cost no more than one: a block shortens once for itself, then for all of its tiles together. Ordering
+// and analysis cost about a hundred nanoseconds a row.
 #pragma once
 
 #include <algorithm>
@@ -17,9 +18,6 @@
 
 namespace thalweg {
 
-/// Tapes from this length on are worth the ordering of the rows and the analysis, which cost about a hundred
-/// nanoseconds a row.
-inline constexpr std::size_t kLongTape = 128;
 /// Rows of a tile and tiles of a block.
 inline constexpr std::size_t kOrderedTile = 512;
 inline constexpr std::size_t kBlockTiles = 32;
@@ -27,8 +25,10 @@ inline constexpr std::size_t kBlockTiles = 32;
 /// One worker's rows and tapes.
 class OrderedRows {
  public:
-  OrderedRows(const Tape& tape, const RowLayout& layout, bool asks_bounds)
-      : tape_(tape), layout_(layout), asks_bounds_(asks_bounds), block_tape_(tape), tile_tape_(tape) {
+  /// Rows are evaluated at most `around` times their own size away from themselves; with bounds over their cells or
+  /// not.
+  OrderedRows(const Tape& tape, const RowLayout& layout, bool asks_bounds, float around)
+      : tape_(tape), layout_(layout), asks_bounds_(asks_bounds), around_(around), block_tape_(tape), tile_tape_(tape) {
     shortener_.begin(tape);
   }
 
@@ -74,7 +74,8 @@ class OrderedRows {
       square += half * half;
     }
     // Kinks are looked for a little way around the rows.
-    region.reach = static_cast<float>((std::sqrt(square) + static_cast<double>(tie_reach(tape_, largest))) * 1.000001);
+    const float around = std::max(tie_reach(tape_, largest), around_ * extent.largest_row);
+    region.reach = static_cast<float>((std::sqrt(square) + static_cast<double>(around)) * 1.000001);
     region.cell_reach = asks_bounds_ ? extent.largest_row : 0;
     return region;
   }
@@ -82,6 +83,7 @@ class OrderedRows {
   const Tape& tape_;
   RowLayout layout_;
   bool asks_bounds_;
+  float around_;
   Shortener shortener_;
   Tape block_tape_, tile_tape_;
   std::vector<float> rows_;

@@ -23,14 +23,14 @@ struct Golden {
 // One row a line, as the failing test prints it.
 // clang-format off
 inline constexpr Golden kGolden[] = {
-    {"triangles2_verdict", 0x166f40789b5b76dd, 0xa399fabe3228f024},
-    {"triangles2_deepest", 0x8601fc88f95484c1, 0xce15bea4fc8221a0},
-    {"triangles3_verdict", 0xd89614aa02ecc981, 0x19ae370c527d955b},
-    {"triangles3_deepest", 0xc2a67d0ce389b7db, 0x14877518ae12d851},
-    {"circles2_verdict", 0xe4f03e2ed19cbb48, 0xa6f9f41b95af3be1},
-    {"circles2_deepest", 0x5dbde8580b3ee7b1, 0x2cf356d381055213},
-    {"spheres3_verdict", 0xab5666e36733dfc1, 0x7eff118b9a2e922e},
-    {"spheres3_deepest", 0x8a05aeb1c874d519, 0x8724ca78326f48b7},
+    {"triangles2_verdict", 0x80ffe15e4773d979, 0xb8ec689103cbaef0},
+    {"triangles2_deepest", 0xc81c6e8c28ee4cfc, 0x48e202b1dc60eada},
+    {"triangles3_verdict", 0xae60fb7571753cc7, 0xa6000c7d37f29b1d},
+    {"triangles3_deepest", 0xe841cf1f817c2a3f, 0x4fcdcc8ff239ca81},
+    {"circles2_verdict", 0x860e542e96c37b70, 0xb4c170ebc68a876a},
+    {"circles2_deepest", 0xed90de8e1dcc591b, 0xf85f61099bdc4fae},
+    {"spheres3_verdict", 0xdba419512aae06c6, 0x3dd70f1404a4b0b5},
+    {"spheres3_deepest", 0xfe059452c9aecae8, 0xae29b2f0b5dc5c26},
     {"circles2_published", 0x567e18570b028a40, 0x1e0cd9b836480b94},
     {"triangles2_thesis", 0x93930670b1a7ba0e, 0x3ad64def9a7af8d7},  // libm
     {"triangles2_projected", 0x593dd47312eaf9eb, 0x8d910f2cfaab35f3},

@@ -5,6 +5,7 @@
 // Over that region the short tape returns the bits of the full one, in every mode.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -15,6 +16,9 @@
 #include "thalweg/tape.h"
 
 namespace thalweg {
+
+/// Tapes from this length on are worth shortening for regions of rows.
+inline constexpr std::size_t kLongTape = 128;
 
 /// A ball that holds all points at which a short tape will be evaluated.
 struct Region {

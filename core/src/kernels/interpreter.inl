@@ -199,13 +199,14 @@ struct GradientMode {
 
 /// Cells are given by what bounds need of them: the reach (greatest distance from the centre c to a point of the
 /// cell), the least of g . (v - c) over the cell's vertices v, and the greatest |v - c + o| for an offset o.
-template <class T_, int D_, class Cell>
+template <class T_, int D_, class Cell, bool kWithGradient>
 struct EnclosureMode {
   using T = T_;
   static constexpr int D = D_;
-  static constexpr size_t kComponents = 3;
+  static constexpr size_t kComponents = kWithGradient ? 3 + D : 3;
   struct Register {
     T lo, value, hi;
+    Point<T, D> gradient;  ///< at the centre, if wanted
   };
 
   Cell cell;
@@ -219,11 +220,13 @@ struct EnclosureMode {
   HWY_INLINE Register primitive(const Machine<T>& m, const Instruction& in, Point<T, D> p, Constants<T> c) const {
     const Field<T, D> f = Declared::field(p, c);
     const T reach = cell.reach();
+    const auto u = f.gradient;
     T lo = f.value - reach;
     if constexpr (Declared::kDeclaration.is_unsigned) lo = max(lo, zero<T>());
+    Point<T, D> slope{};
+    if constexpr (kWithGradient) slope = pull_back<T, D>(m, in.operand, u);
     if ((in.flags & (Instruction::kSupport | Instruction::kDepth)) != 0) {
-      const auto u = f.gradient;
-      const auto slope = pull_back<T, D>(m, in.operand, u);
+      if constexpr (!kWithGradient) slope = pull_back<T, D>(m, in.operand, u);
       const auto is_unit = Make<T>::set(0.9) < dot(u, u);
       if constexpr (requires { Declared::support(p, c); }) {
         if ((in.flags & Instruction::kSupport) != 0) {
@@ -236,7 +239,7 @@ struct EnclosureMode {
         lo = select(both(is_unit, f.value < zero<T>()), max(lo, depth), lo);
       }
     }
-    return {lo, f.value, f.value + reach};
+    return {lo, f.value, f.value + reach, slope};
   }
   /// Operators are monotone in each operand: the end points of the operands give those of the result.
   template <class Declared>
@@ -244,22 +247,26 @@ struct EnclosureMode {
                               Constants<T> c) const {
     constexpr bool kRising = Declared::kTrend[1] > 0;
     const auto at = [&](T x, T y) { return Declared::combine(Field<T, D>{x, {}}, Field<T, D>{y, {}}, c).value; };
-    return {at(a.lo, kRising ? b.lo : b.hi), at(a.value, b.value), at(a.hi, kRising ? b.hi : b.lo)};
+    const Field<T, D> f = Declared::combine(Field<T, D>{a.value, a.gradient}, Field<T, D>{b.value, b.gradient}, c);
+    return {at(a.lo, kRising ? b.lo : b.hi), f.value, at(a.hi, kRising ? b.hi : b.lo), f.gradient};
   }
   template <class Declared>
   HWY_INLINE Register map(const Machine<T>&, const Instruction&, const Register& a, Constants<T> c) const {
     const auto at = [&](T x) { return Declared::map(Field<T, D>{x, {}}, c).value; };
+    const Field<T, D> f = Declared::map(Field<T, D>{a.value, a.gradient}, c);
     if constexpr (Declared::kTrend == 0) {
       const Interval<T> ends = Declared::enclose(Interval<T>{a.lo, a.hi}, c);
-      return {ends.lo, at(a.value), ends.hi};
+      return {ends.lo, f.value, ends.hi, f.gradient};
     } else {
-      return {at(a.lo), at(a.value), at(a.hi)};
+      return {at(a.lo), f.value, at(a.hi), f.gradient};
     }
   }
   template <class S>
   static HWY_INLINE Register load(const S* from) {
     const size_t n = lanes_of<T>();
-    return {Make<T>::load(from), Make<T>::load(from + n), Make<T>::load(from + 2 * n)};
+    Register a{Make<T>::load(from), Make<T>::load(from + n), Make<T>::load(from + 2 * n), {}};
+    if constexpr (kWithGradient) a.gradient = load_point<T, D>(from + 3 * n);
+    return a;
   }
   template <class S>
   static HWY_INLINE void save(const Register& a, S* to) {
@@ -267,6 +274,7 @@ struct EnclosureMode {
     store(a.lo, to);
     store(a.value, to + n);
     store(a.hi, to + 2 * n);
+    if constexpr (kWithGradient) store_point(a.gradient, to + 3 * n);
   }
 };
 

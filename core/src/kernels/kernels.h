@@ -34,6 +34,7 @@ struct CellColumns {
   const float* reach = nullptr;
   const float* edges[9] = {};
   bool is_box = false;
+  float* gradient[3] = {};  ///< where the gradients at the centres go; null: they are not wanted
 };
 
 /// Columns of points and where their gradients go; all padded.
@@ -51,7 +52,7 @@ struct GradientColumns {
   const auto registers = static_cast<std::size_t>(tape.register_count);
   const auto positions = static_cast<std::size_t>(tape.position_count);
   const auto dimension = static_cast<std::size_t>(tape.dimension);
-  return kMostChunkLanes * (registers * (dimension == 2 ? 3 : 4) + positions * dimension) + positions + kColumnPadding;
+  return kMostChunkLanes * (registers * (dimension == 2 ? 5 : 6) + positions * dimension) + positions + kColumnPadding;
 }
 
 using ValueKernel = void (*)(const Tape& tape, const float* const* points, std::size_t count, float* value,

@@ -74,7 +74,7 @@ double gradient_at(const Machine<Real>& m, double* gradient) {
 
 template <int D>
 Enclosure64 enclosure_at(const Machine<Real>& m, const Cell64& cell) {
-  const auto f = run(EnclosureMode<Real, D, TwinCell<D>>{{&cell}}, m);
+  const auto f = run(EnclosureMode<Real, D, TwinCell<D>, false>{{&cell}}, m);
   return {f.lo.v, f.value.v};
 }
 

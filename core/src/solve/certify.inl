@@ -6,15 +6,15 @@
 //   wave 0   every query is one cell          f(centre), reach  ->  separated / witness / open
 //   wave k   every open cell is split         children of all queries side by side in the lanes
 //
-// A cell with centre c and reach r has min f >= f(c) - L r, or more where enclosures know the shape's parts.
+// A cell with centre c and reach r has min f >= f(c) - L r, or more where enclosures know the shape's parts. A deepest
+// point also has far points (far_points.inl), and its wave 0 looks at each query's lowest corner before it splits one.
 //
 // 1. Cells are exact: dyadic coordinates within the query's region, so that children tile their parent.
 // 2. A witness needs f(c) < -slack, a discard needs bound > slack: the slack covers every rounding between the real
 //    function over the exact cell and the float32 number at hand.
 // 3. Nothing depends on the tile: a query's cells keep the order of its own splits, its incumbent changes between
 //    waves only, and of equal values the first in that order wins.
-// 4. The incumbent is polished by one probe down its gradient, because a minimum on the rim of the region is met by
-//    no centre.
+// 4. A minimum on the rim of the region is met by no centre: each wave probes one point more (probes.inl).
 // 5. Queries that float32 cannot resolve go on in double (decide.h).
 // 6. A wave holds at most kWaveCells cells. Queries that do not fit wait in batches of one level each.
 //
@@ -32,19 +32,15 @@
 #include "solve/decide.h"
 #include "solve/depth_first.inl"
 #include "solve/domains.inl"
+#include "solve/far_points.inl"
 #include "solve/finish.h"
+#include "solve/first_wave.inl"
+#include "solve/probes.inl"
 #include "solve/tile.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace thalweg {
 namespace HWY_NAMESPACE {
-
-/// Children that one wave may hold.
-inline constexpr size_t kWaveCells = 8192;
-/// From this level on enclosures are used where they can say more than f(c) - L r: they cost about two values.
-inline constexpr uint32_t kFirstEnclosureLevel = 2;
-/// From this level on a verdict's incumbents are polished; a deepest point's are from the start.
-inline constexpr uint32_t kFirstProbeLevel = 4;
 
 template <class Domain>
 class Certifier {
@@ -52,7 +48,8 @@ class Certifier {
   static constexpr size_t kChildren = Domain::kChildren;
   static constexpr size_t kCoordinates = Domain::kCoordinates;
 
-  Certifier(const QueryTile& tile, TileScratch& scratch) : tile_(tile), limits_(*tile.limits), scratch_(scratch) {
+  Certifier(const QueryTile& tile, TileScratch& scratch)
+      : tile_(tile), limits_(*tile.limits), scratch_(scratch), first_wave_(tile, domain_, state_) {
     Arena& arena = scratch.arena;
     arena.reset();
     const size_t room = padded(tile.count);
@@ -62,15 +59,21 @@ class Certifier {
     wave_.take(arena, wave_room, kCoordinates, Domain::kEdgeColumns);
     open_.take(arena, wave_room, kCoordinates);
     next_.take(arena, wave_room, kCoordinates);
-    for (float*& column : cell_) column = arena.take<float>(room);
-    for (float** column : {&threshold_, &open_lower_, &kept_}) *column = arena.take<float>(wave_room);
-    closed_lower_ = arena.take<float>(wave_room);
-    cell_lower_ = arena.take<float>(wave_room);
-    cell_open_ = arena.take<float>(wave_room);
+    for (float** column : {&threshold_, &open_lower_, &closed_lower_, &cell_open_, &kept_}) {
+      *column = arena.take<float>(wave_room);
+    }
+    probes_.take(arena, wave_room);
+    far_points_.take(tile, domain_, state_, arena, wave_room);
+    first_wave_.take(arena, wave_, far_points_, wave_room);
     progress_ = arena.take<Progress>(room);
     touched_ = arena.take<uint32_t>(std::max(room, wave_room) + kColumnPadding);
     hard_ = arena.take<uint32_t>(room);
-    depth_first_.take(arena);
+    for (uint32_t** column : {&probing_, &asked_}) *column = arena.take<uint32_t>(wave_room);
+    if (wants_deepest()) {
+      deepest_first_.take(arena, far_points_);
+    } else {
+      depth_first_.take(arena, far_points_);
+    }
     kernel_scratch_ = arena.take<float>(scratch_floats(*tile.tape));
     tolerance_ = static_cast<float>(limits_.tolerance);
     scratch.waiting.clear();
@@ -78,13 +81,12 @@ class Certifier {
 
   void run() {
     domain_.load(tile_, state_);
-    first_wave();
+    begin_search(first_wave_.run(touched_, kernel_scratch_));
     while (refill()) {
       ++level_;
-      const bool encloses = level_ >= kFirstEnclosureLevel && (tile_.tape->has_support || wants_deepest());
-      bound_children(tile_, domain_, state_.slack, open_, wave_, encloses, kernel_scratch_);
+      bound_children(tile_, domain_, state_.slack, open_, wave_, Detail::gradients, kernel_scratch_);
       take_incumbents();
-      if (limits_.goal == Goal::deepest || level_ >= kFirstProbeLevel) probe();
+      probe();
       close_cells();
       conclude();
       compact();
@@ -101,76 +103,45 @@ class Certifier {
     uint32_t level;
     uint32_t open;     ///< open cells
     float open_lower;  ///< least bound over them
-    bool improved;     ///< the incumbent is of this wave
+    float least;       ///< of the linear model of f over a cell
+    uint32_t parent;   ///< that cell's
     bool unresolved;   ///< some open cell is too small for float32
     bool keeps;        ///< the query goes on in the next wave
   };
 
   [[nodiscard]] bool wants_deepest() const { return limits_.goal == Goal::deepest; }
 
-  // --- wave 0
-  // ---------------------------------------------------------------------------------------------------------
-
-  void first_wave() {
-    const size_t n = tile_.count;
-    const F32 d;
-    const hn::RebindToUnsigned<F32> du;
-    // Rounded up: the slack is a claim.
-    const auto slack_a = hn::Set(d, static_cast<float>(limits_.slack.a * (1 + 1e-6)));
-    const auto slack_b = hn::Set(d, static_cast<float>(limits_.slack.b * (1 + 1e-6)));
-    tile_.kernels->value(*tile_.tape, state_.point, n, state_.value, kernel_scratch_);
-    const auto lipschitz = hn::Set(d, static_cast<float>(tile_.tape->facts.lipschitz));
-    const auto tolerance = hn::Set(d, wants_deepest() ? tolerance_ : kInfinite);
-    const auto one = hn::Set(d, 1.0F);
-    size_t open_count = 0;
-    for (size_t i = 0; i < n; i += hn::Lanes(d)) {
-      const auto slack = hn::MulAdd(slack_b, hn::LoadU(d, domain_.largest() + i), slack_a);
-      const auto f = hn::LoadU(d, state_.value + i);
-      const auto lower = hn::Sub(hn::NegMulAdd(lipschitz, hn::LoadU(d, domain_.reach() + i), f), slack);
-      const auto witness = hn::Lt(f, hn::Neg(slack));
-      const auto known = hn::Or(witness, hn::Gt(lower, hn::Zero(d)));
-      const auto closed = hn::And(known, hn::Ge(lower, hn::Sub(f, tolerance)));
-      const auto bad = hn::Gt(hn::LoadU(d, state_.is_bad + i), hn::Zero(d));
-      const auto here = hn::FirstN(d, HWY_MIN(n - i, hn::Lanes(d)));
-      const auto open = hn::AndNot(hn::Or(closed, bad), here);
-      hn::StoreU(slack, d, state_.slack + i);
-      hn::StoreU(lower, d, state_.lower + i);
-      hn::StoreU(hn::IfThenElseZero(witness, one), d, state_.witness + i);
-      hn::StoreU(hn::IfThenElse(open, hn::Zero(d), one), d, state_.converged + i);
-      hn::StoreU(hn::Set(du, 1), du, state_.evaluations + i);
-      hn::StoreU(hn::Zero(du), du, state_.iterations + i);
-      const auto index = hn::Iota(du, static_cast<uint32_t>(i));
-      hn::StoreU(hn::Compress(index, hn::RebindMask(du, open)), du, touched_ + open_count);
-      open_count += hn::CountTrue(d, open);
-    }
-    begin_search(open_count);
-  }
-
   /// The queries in touched_ are open as a whole.
   void begin_search(size_t open_count) {
-    if (!wants_deepest() && limits_.budget >= DepthFirst<Domain>::kLeastBudget) {
-      depth_first_.run(tile_, domain_, state_, {touched_, open_count}, scratch_.waiting, kernel_scratch_);
-      for (const WaitingCell& cell : scratch_.waiting) progress_[cell.query].level = 0;
-      return;
+    if (!wants_deepest() && limits_.budget >= DepthFirst<Domain, false>::kLeastBudget) {
+      return search_in_lanes(depth_first_, open_count);
     }
-    for (size_t i = 0; i < open_count; ++i) {
-      const uint32_t q = touched_[i];
-      for (size_t k = 0; k < kCoordinates; ++k) cell_[k][q] = Domain::kRoot[k];
-      progress_[q] = {0, 1, state_.lower[q], true, false, true};
+    if (wants_deepest() && limits_.budget >= DepthFirst<Domain, true>::kLeastBudget) {
+      return search_in_lanes(deepest_first_, open_count);
     }
-    touched_count_ = open_count;
-    if (wants_deepest()) probe();
     for (size_t i = open_count; i-- > 0;) {
       const uint32_t q = touched_[i];
-      if (state_.evaluations[q] + kChildren > limits_.budget) {
+      if (cost_of(1) > limits_.budget - state_.evaluations[q]) {
         state_.converged[q] = goal_reached(limits_, state_, q, state_.lower[q]) ? 1 : 0;
         continue;
       }
       WaitingCell cell{q, 0, 0, {}};
       std::copy_n(Domain::kRoot, kCoordinates, cell.at);
       scratch_.waiting.push_back(cell);
+      progress_[q].level = 0;
       state_.lower[q] = kInfinite;
     }
+  }
+
+  template <class Lanes>
+  void search_in_lanes(Lanes& lanes, size_t open_count) {
+    lanes.run(tile_, domain_, state_, {touched_, open_count}, scratch_.waiting, kernel_scratch_);
+    for (const WaitingCell& cell : scratch_.waiting) progress_[cell.query].level = 0;
+  }
+
+  /// What a wave may take for so many open cells of a query: their children, a far point each, a probe.
+  [[nodiscard]] uint32_t cost_of(uint32_t cells) const {
+    return static_cast<uint32_t>(kChildren) * cells * (wants_deepest() ? 2 : 1) + 1;
   }
 
   // --- wave k
@@ -201,15 +172,20 @@ class Certifier {
 
   void take_incumbents() {
     touched_count_ = 0;
+    probes_.look(domain_, open_, wave_);
     for (size_t i = 0; i < open_.count; ++i) {
       const uint32_t q = open_.query[i];
       if (progress_[q].level != level_) {
-        progress_[q] = {level_, 0, kInfinite, false, false, false};
+        progress_[q] = {level_, 0, kInfinite, kInfinite, 0, false, false};
         state_.iterations[q] = level_;
         touched_[touched_count_++] = q;
       }
       state_.evaluations[q] += kChildren;
       if (wave_.best[i] < state_.value[q]) adopt(q, i);
+      if (probes_.least[i] < progress_[q].least) {
+        progress_[q].least = probes_.least[i];
+        progress_[q].parent = static_cast<uint32_t>(i);
+      }
     }
   }
 
@@ -217,74 +193,33 @@ class Certifier {
     size_t at = parent;
     while (wave_.value[at] != wave_.best[parent]) at += wave_.stride;
     float cell[kMostCoordinates];
-    for (size_t k = 0; k < kCoordinates; ++k) cell_[k][q] = cell[k] = wave_.at[k][at];
+    for (size_t k = 0; k < kCoordinates; ++k) cell[k] = wave_.at[k][at];
     float uv[2];
     centre_coordinates<Domain>(cell, uv);
     for (int axis = 0; axis < Domain::kAxes; ++axis) state_.point[axis][q] = wave_.centre[axis][at];
-    set_incumbent(q, wave_.best[parent], uv);
-    progress_[q].improved = true;
+    set_incumbent(state_, q, wave_.best[parent], uv);
   }
 
-  void set_incumbent(uint32_t q, float value, const float* uv) {
-    state_.value[q] = value;
-    state_.barycentric[0][q] = uv[0];
-    state_.barycentric[1][q] = uv[1];
-    if (value < -state_.slack[q]) state_.witness[q] = 1;
-  }
-
-  // --- probes
-  // -----------------------------------------------------------------------------------------------------------
-
-  /// Looks once for a lower value near each new incumbent.
+  /// Looks for lower values off the centres: once for each query that hopes for one. Queries are touched in the order
+  /// of their cells, so that what is kept of the probes never overwrites what comes.
   void probe() {
-    const size_t room = kWaveCells;
-    for (size_t first = 0; first < touched_count_;) {
-      size_t count = 0;
-      for (; first < touched_count_ && count < room; ++first) {
-        const uint32_t q = touched_[first];
-        const bool decided = !wants_deepest() && state_.witness[q] != 0;
-        if (!progress_[q].improved || decided || state_.evaluations[q] + 2 > limits_.budget) continue;
-        next_.query[count] = q;
-        for (int axis = 0; axis < Domain::kAxes; ++axis) next_.at[axis][count] = state_.point[axis][q];
-        ++count;
-      }
-      probe_list(count);
+    const float gain = wants_deepest() ? kProbeGain * tolerance_ : 0;
+    size_t count = 0;
+    for (size_t i = 0; i < touched_count_; ++i) {
+      const uint32_t q = touched_[i];
+      const bool decided = !wants_deepest() && state_.witness[q] != 0;
+      if (decided || !(progress_[q].least < state_.value[q] - gain)) continue;
+      probes_.keep(progress_[q].parent, count);
+      probing_[count++] = q;
     }
-  }
-
-  /// next_ lends its columns: it is empty between compactions. The wave's edges and reach have been used.
-  void probe_list(size_t count) {
-    constexpr size_t kAxes = Domain::kAxes;
-    float* points[3] = {next_.at[0], next_.at[1], kAxes == 3 ? next_.at[2] : nullptr};
-    float* gradient[3] = {threshold_, open_lower_, kAxes == 3 ? kept_ : nullptr};
-    tile_.kernels->gradient(*tile_.tape, points, count, closed_lower_, gradient, kernel_scratch_);
-    float* u = cell_lower_;
-    float* v = cell_open_;
+    probes_.evaluate(tile_, count, kernel_scratch_);
     for (size_t i = 0; i < count; ++i) {
-      const uint32_t q = next_.query[i];
-      float cell[kMostCoordinates];
-      for (size_t k = 0; k < kCoordinates; ++k) cell[k] = cell_[k][q];
-      float from[3] = {};
-      float slope[3] = {};
-      for (size_t axis = 0; axis < kAxes; ++axis) {
-        from[axis] = points[axis][i];
-        slope[axis] = gradient[axis][i];
-      }
-      float to[3] = {};
-      float uv[2] = {};
-      domain_.probe(q, cell, from, slope, to, uv);
-      for (size_t axis = 0; axis < kAxes; ++axis) points[axis][i] = to[axis];
-      u[i] = uv[0];
-      v[i] = uv[1];
-    }
-    tile_.kernels->value(*tile_.tape, points, count, closed_lower_, kernel_scratch_);
-    for (size_t i = 0; i < count; ++i) {
-      const uint32_t q = next_.query[i];
-      state_.evaluations[q] += 2;
-      if (!(closed_lower_[i] < state_.value[q])) continue;
-      for (size_t axis = 0; axis < kAxes; ++axis) state_.point[axis][q] = points[axis][i];
-      const float uv[2] = {u[i], v[i]};
-      set_incumbent(q, closed_lower_[i], uv);
+      const uint32_t q = probing_[i];
+      ++state_.evaluations[q];
+      if (!(probes_.value[i] < state_.value[q])) continue;
+      for (int axis = 0; axis < Domain::kAxes; ++axis) state_.point[axis][q] = probes_.point[axis][i];
+      const float uv[2] = {probes_.uv[0][i], probes_.uv[1][i]};
+      set_incumbent(state_, q, probes_.value[i], uv);
     }
   }
 
@@ -302,6 +237,10 @@ class Certifier {
   void close_cells() {
     const F32 d;
     for (size_t i = 0; i < open_.count; ++i) threshold_[i] = threshold(open_.query[i]);
+    if (wants_deepest()) {
+      far_points_.raise_bounds({open_.query, threshold_, asked_, open_.count, kChildren}, wave_, kernel_scratch_);
+      for (size_t i = 0; i < open_.count; ++i) state_.evaluations[open_.query[i]] += asked_[i];
+    }
     const auto infinite = hn::Set(d, kInfinite);
     const auto one = hn::Set(d, 1.0F);
     for (size_t i = 0; i < open_.count; i += hn::Lanes(d)) {
@@ -347,7 +286,8 @@ class Certifier {
       // float32 can tell no more when no bound is further below the incumbent than its slack lets it seem.
       p.unresolved = p.unresolved || p.open_lower >= state_.value[q] - 2 * state_.slack[q];
       const size_t next = p.open * kChildren;
-      const bool spent = next > limits_.budget || state_.evaluations[q] > limits_.budget - next;
+      const uint32_t cost = cost_of(p.open);
+      const bool spent = cost > limits_.budget || state_.evaluations[q] > limits_.budget - cost;
       const bool reached = goal_reached(limits_, state_, q, lower);
       if (spent || (reached && state_.evaluations[q] > limits_.budget / kTouchingEffort)) {
         state_.lower[q] = lower;
@@ -424,24 +364,28 @@ class Certifier {
   TileScratch& scratch_;
   Domain domain_;
   QueryState state_;
-  DepthFirst<Domain> depth_first_;
+  DepthFirst<Domain, false> depth_first_;
+  DepthFirst<Domain, true> deepest_first_;
   WaveColumns wave_;
   CellList open_;  ///< parents of the wave
   CellList next_;  ///< parents of the next one
   uint32_t level_ = 0;
   float tolerance_ = 0;
   float* kernel_scratch_ = nullptr;
-  float* cell_[kCoordinates] = {};  ///< per query: the cell whose centre is, or led to, the incumbent
-  Progress* progress_ = nullptr;    ///< per query
-  uint32_t* touched_ = nullptr;     ///< queries of the wave
+  Progress* progress_ = nullptr;  ///< per query
+  uint32_t* touched_ = nullptr;   ///< queries of the wave
   size_t touched_count_ = 0;
-  uint32_t* hard_ = nullptr;  ///< queries that go on in double
+  uint32_t* probing_ = nullptr;  ///< queries whose probes are evaluated
+  uint32_t* asked_ = nullptr;    ///< far points, per parent
+  uint32_t* hard_ = nullptr;     ///< queries that go on in double
   size_t hard_count_ = 0;
-  // Per parent of the wave; probes borrow them.
+  Probes<Domain> probes_;
+  FarPoints<Domain> far_points_;
+  FirstWave<Domain> first_wave_;
+  // Per parent of the wave.
   float* threshold_ = nullptr;
   float* closed_lower_ = nullptr;
   float* open_lower_ = nullptr;
-  float* cell_lower_ = nullptr;
   float* cell_open_ = nullptr;
   float* kept_ = nullptr;
 };

@@ -8,6 +8,7 @@
 // foreach_target must come first
 #include <hwy/highway.h>
 
+#include "solve/ball_domain.inl"
 #include "solve/certify.inl"
 
 HWY_BEFORE_NAMESPACE();

@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include "solve/certify.inl"
+#include "solve/triangle_domain.inl"
 
 HWY_BEFORE_NAMESPACE();
 namespace thalweg {

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The thalweg authors
 // SPDX-License-Identifier: MIT
 //
-// The verdicts of many queries side by side: each lane walks the splits of one query depth first, the child of least
+// The searches of many queries side by side: each lane walks the splits of one query depth first, the child of least
 // value before its siblings, and takes the next query when it is done. Most open queries need a handful of splits, and
-// a split here is decided within vector registers.
+// a split here is decided within vector registers. For a deepest point a lane also probes for lower values, and asks
+// far points of the children that stay open.
 //
 // What a lane does depends on its own query alone. A query that is not decided after kMostSplits, or by float32, leaves
 // with its findings and its open cells, which the search goes on with in waves (certify.inl).
@@ -19,49 +20,60 @@
 #include <span>
 #include <vector>
 
+#include "solve/far_points.inl"
+#include "solve/probes.inl"
 #include "solve/wave.inl"
 
 HWY_BEFORE_NAMESPACE();
 namespace thalweg {
 namespace HWY_NAMESPACE {
 
-template <class Domain>
+template <class Domain, bool kDeepest>
 class DepthFirst {
  public:
   static constexpr size_t kChildren = Domain::kChildren;
   static constexpr size_t kCoordinates = Domain::kCoordinates;
   static constexpr size_t kAxes = Domain::kAxes;
-  /// Queries in flight: with two children each, two chunks of the widest enclosure.
-  static constexpr size_t kLanes = 32;
-  static constexpr uint32_t kMostSplits = kChildren == 2 ? 24 : 8;
+  /// Queries in flight: with two children each, two chunks of the widest enclosure; or a chunk of the widest value, for
+  /// the probes of deepest points.
+  static constexpr size_t kLanes = kDeepest ? 64 : 32;
+  static constexpr uint32_t kMostSplits = (kChildren == 2 ? 24 : 8) * (kDeepest ? 2 : 1);
   static constexpr size_t kStackDepth = kMostSplits * (kChildren - 1) + 1;
+  /// What a split takes, probe and far points included.
+  static constexpr uint32_t kCost = kDeepest ? 2 * kChildren + 1 : kChildren;
   /// With less, the budget might end within the lanes or before the first wave after them.
-  static constexpr uint32_t kLeastBudget = 1 + kChildren * (kMostSplits + kStackDepth);
+  static constexpr uint32_t kLeastBudget = 4 + kCost * (kMostSplits + kStackDepth);
 
-  void take(Arena& arena) {
+  void take(Arena& arena, FarPoints<Domain>& far_points) {
     constexpr size_t kRoom = kLanes + kColumnPadding;
+    far_points_ = &far_points;
     wave_.take(arena, kChildren * kRoom, kCoordinates, Domain::kEdgeColumns);
     open_.take(arena, kRoom, kCoordinates);
-    for (float** column : {&value_, &lower_, &stacked_lower_, &ends_, &uv_[0], &uv_[1]}) {
+    if (kDeepest) probes_.take(arena, kRoom);
+    for (float** column : {&value_, &lower_, &stacked_lower_, &limit_, &ends_, &uv_[0], &uv_[1]}) {
       *column = arena.take<float>(kRoom);
     }
     for (size_t axis = 0; axis < kAxes; ++axis) point_[axis] = arena.take<float>(kRoom);
-    splits_ = arena.take<uint32_t>(kRoom);
+    for (uint32_t** column : {&splits_, &extra_, &asked_, &probed_}) *column = arena.take<uint32_t>(kRoom);
     depth_ = arena.take<int32_t>(kRoom);
     std::fill_n(depth_, kRoom, 0);
+    std::fill_n(limit_, kRoom, 0.0F);
     for (float*& plane : stack_) plane = arena.take<float>(kStackDepth * kLanes + kColumnPadding);
   }
 
   /// Searches for each query of a list from its root cell on. Open cells of those that are not decided go to `waiting`.
   void run(const QueryTile& tile, const Domain& domain, QueryState& state, std::span<const uint32_t> queries,
            std::vector<WaitingCell>& waiting, float* scratch) {
+    const Detail detail = kDeepest ? Detail::gradients : tile.tape->has_support ? Detail::enclosures : Detail::none;
     size_t next = 0;
     open_.count = 0;
     while (next < queries.size() && open_.count < kLanes) begin(state, queries[next++], open_.count++);
     while (open_.count > 0) {
-      bound_children(tile, domain, state.slack, open_, wave_, tile.tape->has_support, scratch);
+      bound_children(tile, domain, state.slack, open_, wave_, detail, scratch);
       // The last vector's lanes beyond the queries repeat one of them; their stacks must stay within bounds.
       std::fill(depth_ + open_.count, depth_ + wave_.stride, 0);
+      for (size_t i = 0; i < open_.count; i += vector_lanes()) improve(i);
+      if constexpr (kDeepest) look_around(tile, domain, state, scratch);
       for (size_t i = 0; i < open_.count; i += vector_lanes()) advance(state, i);
       for (size_t i = open_.count; i-- > 0;) {
         ++splits_[i];
@@ -90,6 +102,7 @@ class DepthFirst {
     for (size_t axis = 0; axis < kAxes; ++axis) point_[axis][lane] = state.point[axis][q];
     depth_[lane] = 0;
     splits_[lane] = 0;
+    extra_[lane] = 0;
   }
 
   void move(size_t from, size_t to) {
@@ -99,6 +112,7 @@ class DepthFirst {
     for (size_t axis = 0; axis < kAxes; ++axis) point_[axis][to] = point_[axis][from];
     depth_[to] = depth_[from];
     splits_[to] = splits_[from];
+    extra_[to] = extra_[from];
     for (float* plane : stack_) {
       for (size_t level = 0; level < static_cast<size_t>(depth_[to]); ++level) {
         plane[level * kLanes + to] = plane[level * kLanes + from];
@@ -120,20 +134,49 @@ class DepthFirst {
     return cells;
   }
 
+  /// Probes, then far points for what the lanes must still prove.
+  void look_around(const QueryTile& tile, const Domain& domain, const QueryState& state, float* scratch) {
+    const F32 d;
+    const hn::RebindToUnsigned<F32> du;
+    const auto tolerance = hn::Set(d, static_cast<float>(tile.limits->tolerance));
+    const auto gain = hn::Mul(tolerance, hn::Set(d, kProbeGain));
+    probes_.look(domain, open_, wave_);
+    probes_.evaluate(tile, open_.count, scratch);
+    for (size_t i = 0; i < open_.count; i += hn::Lanes(d)) {
+      const auto value = hn::LoadU(d, value_ + i);
+      const auto f = hn::LoadU(d, probes_.value + i);
+      const auto asks = hn::Lt(hn::LoadU(d, probes_.least + i), hn::Sub(value, gain));
+      const auto lower = hn::And(asks, hn::Lt(f, value));
+      for (size_t c = 0; c < 2; ++c) blend(lower, hn::LoadU(d, probes_.uv[c] + i), uv_[c] + i);
+      for (size_t axis = 0; axis < kAxes; ++axis) {
+        blend(lower, hn::LoadU(d, probes_.point[axis] + i), point_[axis] + i);
+      }
+      const auto best = hn::IfThenElse(lower, f, value);
+      hn::StoreU(best, d, value_ + i);
+      const auto witness = hn::Lt(best, hn::Neg(gather(state.slack, open_.query + i)));
+      const auto limit = hn::Sub(best, tolerance);
+      hn::StoreU(hn::IfThenElse(witness, limit, hn::Max(limit, hn::Zero(d))), d, limit_ + i);
+      hn::StoreU(hn::IfThenElseZero(hn::RebindMask(du, asks), hn::Set(du, 1)), du, probed_ + i);
+    }
+    far_points_->raise_bounds({open_.query, limit_, asked_, open_.count, kChildren}, wave_, scratch);
+    for (size_t i = 0; i < open_.count; ++i) extra_[i] += asked_[i] + probed_[i];
+  }
+
   /// Takes what the children of one vector of lanes have shown, and picks the lanes' next cells.
   HWY_INLINE void advance(const QueryState& state, size_t i) {
     const F32 d;
     const auto zero = hn::Zero(d);
     const auto infinite = hn::Set(d, kInfinite);
     const auto slack = gather(state.slack, open_.query + i);
-    const auto value = improve(i);
+    const auto value = hn::LoadU(d, value_ + i);
+    const auto limit = hn::LoadU(d, limit_ + i);
     auto closed = hn::LoadU(d, lower_ + i);
     auto least_open = infinite;
     auto too_small = hn::Ne(zero, zero);
     for (size_t k = 0; k < kChildren; ++k) {
       const size_t at = k * wave_.stride + i;
       const auto lower = hn::LoadU(d, wave_.lower + at);
-      const auto is_closed = hn::Gt(lower, zero);
+      const auto is_closed = hn::Gt(lower, limit);
       closed = hn::Min(closed, hn::IfThenElse(is_closed, lower, infinite));
       least_open = hn::Min(least_open, hn::IfThenElse(is_closed, infinite, lower));
       too_small = hn::Or(too_small, hn::AndNot(is_closed, hn::Le(hn::LoadU(d, wave_.reach + at), slack)));
@@ -142,17 +185,19 @@ class DepthFirst {
     const auto witness = hn::Lt(value, hn::Neg(slack));
     const auto goes_on = choose_next(i);
     hn::StoreU(stacked, d, stacked_lower_ + i);
-    hn::StoreU(hn::IfThenElse(witness, hn::Min(closed, stacked), closed), d, lower_ + i);
-    const auto decided = hn::Or(witness, hn::Not(goes_on));
+    // A witness ends the search for a verdict, and leaves cells open.
+    const auto ends = kDeepest ? hn::Lt(zero, zero) : witness;
+    hn::StoreU(hn::IfThenElse(ends, hn::Min(closed, stacked), closed), d, lower_ + i);
+    const auto decided = hn::Or(ends, hn::Not(goes_on));
     const auto beyond = hn::IfThenElseZero(too_small, hn::Set(d, kBeyondFloat32));
     hn::StoreU(hn::IfThenElse(decided, hn::Set(d, kDecided), beyond), d, ends_ + i);
   }
 
   /// The lanes' least values so far; their points move where a child is lower.
-  HWY_INLINE V32 improve(size_t i) {
+  HWY_INLINE void improve(size_t i) {
     const F32 d;
     auto best = hn::LoadU(d, value_ + i);
-    if (hn::AllFalse(d, hn::Lt(hn::LoadU(d, wave_.best + i), best))) return best;
+    if (hn::AllFalse(d, hn::Lt(hn::LoadU(d, wave_.best + i), best))) return;
     for (size_t k = 0; k < kChildren; ++k) {
       const size_t at = k * wave_.stride + i;
       const Cells cells = child(at);
@@ -166,7 +211,6 @@ class DepthFirst {
       }
     }
     hn::StoreU(best, d, value_ + i);
-    return best;
   }
 
   static HWY_INLINE void blend(M32 m, V32 yes, float* column) {
@@ -182,11 +226,12 @@ class DepthFirst {
     auto depth = hn::LoadU(di, depth_ + i);
     const auto lane = hn::Iota(di, static_cast<int32_t>(i));
     Cells best = child(i);
-    auto has_one = hn::Not(hn::Gt(hn::LoadU(d, wave_.lower + i), hn::Zero(d)));
+    const auto limit = hn::LoadU(d, limit_ + i);
+    auto has_one = hn::Not(hn::Gt(hn::LoadU(d, wave_.lower + i), limit));
     for (size_t k = 1; k < kChildren; ++k) {
       const size_t at = k * wave_.stride + i;
       const Cells other = child(at);
-      const auto is_open = hn::Not(hn::Gt(hn::LoadU(d, wave_.lower + at), hn::Zero(d)));
+      const auto is_open = hn::Not(hn::Gt(hn::LoadU(d, wave_.lower + at), limit));
       const auto takes = hn::And(is_open, hn::Or(hn::Not(has_one), hn::Lt(other.value, best.value)));
       const auto both = hn::And(is_open, has_one);
       // Lanes that stack nothing write above their top.
@@ -219,10 +264,10 @@ class DepthFirst {
     state.lower[q] = lower_[lane];
     for (size_t k = 0; k < 2; ++k) state.barycentric[k][q] = uv_[k][lane];
     for (size_t axis = 0; axis < kAxes; ++axis) state.point[axis][q] = point_[axis][lane];
-    state.evaluations[q] += static_cast<uint32_t>(kChildren) * splits_[lane];
+    state.evaluations[q] += static_cast<uint32_t>(kChildren) * splits_[lane] + extra_[lane];
     state.iterations[q] = splits_[lane];
+    state.witness[q] = value_[lane] < -state.slack[q] ? 1 : 0;
     if (ends_[lane] == kDecided) {
-      state.witness[q] = value_[lane] < -state.slack[q] ? 1 : 0;
       state.converged[q] = 1;
       return;
     }
@@ -236,14 +281,20 @@ class DepthFirst {
   }
 
   WaveColumns wave_;
+  Probes<Domain> probes_;
+  FarPoints<Domain>* far_points_ = nullptr;
   CellList open_;  ///< the cells that are split next, one a lane
   float* value_ = nullptr;
   float* lower_ = nullptr;          ///< least bound over the closed cells
   float* stacked_lower_ = nullptr;  ///< least bound over all cells that were ever open
+  float* limit_ = nullptr;          ///< a bound above it closes a cell
   float* ends_ = nullptr;
   float* uv_[2] = {};
   float* point_[3] = {};
   uint32_t* splits_ = nullptr;
+  uint32_t* extra_ = nullptr;   ///< evaluations besides those of children
+  uint32_t* asked_ = nullptr;   ///< far points of the last split
+  uint32_t* probed_ = nullptr;  ///< probes of the last split
   int32_t* depth_ = nullptr;
   float* stack_[kCoordinates] = {};  ///< [depth][lane]
 };

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "compile/shorten.h"
 #include "gradient/strategies.h"
 #include "solve/contacts.h"
 #include "solve/descend.h"
@@ -41,6 +42,11 @@ Result<SolveLimits> with_starts(SolveLimits limits, const CollideOptions& option
   }
   return limits;
 }
+
+/// Further out a far point closes hardly more cells (measured: 16 reaches leave 2 % more evaluations than 64), and all
+/// that lies on the way must be in the region of a shortened tape.
+constexpr float kFarReaches = 16;
+constexpr float kFarReachesOfLongTapes = 4;
 
 double default_feature(const Tape& tape) {
   const Bounds& bounds = tape.facts.bounds;
@@ -101,6 +107,7 @@ Result<SolveLimits> plan(const Tape& tape, QueryKind kind, const CollideOptions&
   limits.budget = options.budget;
   limits.tolerance = options.tolerance > 0 ? options.tolerance : default_tolerance(tape);
   limits.slack = tape.search_slack;
+  limits.far_reaches = tape.instructions.size() < kLongTape ? kFarReaches : kFarReachesOfLongTapes;
   limits.slack64 = {.a = limits.slack.a * Twin::kSlackRatio, .b = limits.slack.b * Twin::kSlackRatio};
   limits.feature = options.feature > 0 ? options.feature : default_feature(tape);
   auto ruled = with_rules(limits, options, row);

@@ -32,6 +32,7 @@ struct SolveLimits {
   std::uint32_t contacts = 0;
   double margin = 0;
   double feature = 0;
+  float far_reaches = 0;  ///< far points (far_points.inl) are at most so many reaches of the query away
   Affine slack;    ///< of a float32 evaluation in a search: rounding of values, centres and bounds
   Affine slack64;  ///< the same in double
 };
