@@ -44,14 +44,22 @@ Result<Summary> collide_pairs(const PairQueries& queries, const PairOptions& opt
   // The summary counts what the caller may not have asked for.
   std::vector<std::uint8_t> status(columns.status == nullptr ? queries.count : 0);
   std::vector<std::uint32_t> evaluations(columns.evaluations == nullptr ? queries.count : 0);
+  // Normals by a strategy are taken where the points are.
+  const bool wants_points = strategy_of(options) != Gradient::autodiff && queries.count > 0;
+  const std::size_t floats = wants_points ? queries.count * static_cast<std::size_t>(queries.shapes[0]->dimension) : 0;
+  std::vector<float> point(columns.point == nullptr ? floats : 0);
+  std::vector<float> contact_point(contacts.normal != nullptr && contacts.point == nullptr ? floats * contacts.capacity
+                                                                                           : 0);
   PairTile all;
   all.queries = &queries;
   all.options = &options;
   all.kernels = (execution.target == nullptr ? &default_target() : execution.target)->kernels;
   all.columns = columns;
   if (columns.status == nullptr) all.columns.status = status.data();
+  if (!point.empty()) all.columns.point = point.data();
   if (columns.evaluations == nullptr) all.columns.evaluations = evaluations.data();
   all.contacts = contacts;
+  if (!contact_point.empty()) all.contacts.point = contact_point.data();
   all.paths = paths;
   PairTask task(all, execution);
   Summary summary;

@@ -63,6 +63,19 @@ class Pairs(CliCase):
         self.assertEqual([2, 0, 0, 0], out["contact_found"].numbers)
         self.assertEqual([0, 1, 1, 1, 1], out["contact_offset"].numbers)
 
+    def test_every_gradient_strategy_gives_normals_and_is_counted(self):
+        closed = self.collide("--contacts", "4")
+        for strategy in ("central", "forward", "simplex", "dichotomy", "closest_point"):
+            with self.subTest(strategy=strategy):
+                out = self.collide("--contacts", "4", "--gradient", strategy, "--gradient-offset", "1e-3")
+                self.assertEqual(closed["contact_point"].numbers, out["contact_point"].numbers)
+                self.assertEqual(closed["contact_normal"].shape, out["contact_normal"].shape)
+                for normal in out["contact_normal"].rows():
+                    self.assertAlmostEqual(1, math.hypot(*normal), delta=1e-5)
+                more = [a - b for a, b in zip(out["evaluations"].numbers, closed["evaluations"].numbers, strict=True)]
+                self.assertGreater(more[0], more[1])  # two contacts and the row's own point
+                self.assertEqual(0, more[2])
+
     def test_a_single_start_misses_an_overlap(self):
         out = self.collide("--method", "thesis", "--starts", "1", "--contacts", "4")
         self.assertEqual(1, out["contact_found"].numbers[0])

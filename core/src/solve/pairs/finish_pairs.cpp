@@ -70,11 +70,15 @@ void write_contact(const PairTile& tile, std::size_t row, std::size_t slot, cons
   const PairContacts& out = tile.contacts;
   const std::size_t at = row * out.capacity + slot;
   put_vector(out.point, at, contact.found.point, dimension);
-  put_vector(out.normal, at, contact.normal, dimension);
   put(out.value, at, contact.found.value);
   put(out.lower, at, std::min(contact.found.lower, contact.found.value));
   put(out.converged, at, static_cast<std::uint8_t>(contact.found.converged ? 1 : 0));
-  put(out.ambiguous, at, static_cast<std::uint8_t>(contact.ambiguous ? 1 : 0));
+  write_contact_normal(tile, at, contact.normal, contact.ambiguous, dimension);
+}
+
+void write_contact_normal(const PairTile& tile, std::size_t at, const float* normal, bool ambiguous, int dimension) {
+  put_vector(tile.contacts.normal, at, normal, dimension);
+  put(tile.contacts.ambiguous, at, static_cast<std::uint8_t>(ambiguous ? 1 : 0));
 }
 
 Status status_of(const PairFinding& found, double slack, double tolerance, bool separated) {

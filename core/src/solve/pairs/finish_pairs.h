@@ -30,6 +30,8 @@ struct PairContact {
   bool ambiguous = false;
 };
 void write_contact(const PairTile& tile, std::size_t row, std::size_t slot, const PairContact& contact, int dimension);
+/// The normal of the contact at `at` of the flat columns anew.
+void write_contact_normal(const PairTile& tile, std::size_t at, const float* normal, bool ambiguous, int dimension);
 
 /// The status that a finding proves.
 [[nodiscard]] Status status_of(const PairFinding& found, double slack, double tolerance, bool separated);

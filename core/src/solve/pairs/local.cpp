@@ -8,7 +8,9 @@
 #include <cmath>
 #include <limits>
 
+#include "gradient/strategies.h"
 #include "solve/pairs/finish_pairs.h"
+#include "solve/pairs/strategy_normals.h"
 
 namespace thalweg {
 namespace {
@@ -43,6 +45,8 @@ struct LocalLanes {
   float* objective = nullptr;
   float* slope[3] = {};           ///< gradient of the objective
   std::uint32_t* lane = nullptr;  ///< of each trial
+  std::uint32_t* spent_a = nullptr;
+  std::uint32_t* spent_b = nullptr;
 
   void take(Arena& arena, std::size_t room, int dimension) {
     for (int axis = 0; axis < dimension; ++axis) {
@@ -52,7 +56,7 @@ struct LocalLanes {
       }
     }
     for (float** column : {&value_a, &value_b, &objective}) *column = arena.take<float>(room);
-    lane = arena.take<std::uint32_t>(room);
+    for (std::uint32_t** column : {&lane, &spent_a, &spent_b}) *column = arena.take<std::uint32_t>(room);
   }
 };
 
@@ -128,11 +132,17 @@ class LocalSearch {
     return count;
   }
 
+  void by_strategy(const Tape& tape, const GradientColumns& columns, float* scratch) {
+    std::fill_n(columns.evaluations, columns.count, 0);
+    const GradientRule rule = rule_of(tape, strategy_of(*tile_.options), tile_.options->gradient_offset);
+    evaluate_gradient(rule, tape, *tile_.kernels, columns, scratch);
+  }
+
   void gradients(std::size_t count) {
     place(count);
-    tile_.kernels->gradient(*problem_.a, lanes_.trial, count, lanes_.value_a, lanes_.gradient_a, scratch_a_);
-    tile_.kernels->gradient(*problem_.b, lanes_.in_b, count, lanes_.value_b, lanes_.gradient_b, scratch_b_);
-    evaluations_ += static_cast<std::uint32_t>(count);
+    by_strategy(*problem_.a, {lanes_.trial, count, lanes_.value_a, lanes_.gradient_a, lanes_.spent_a}, scratch_a_);
+    by_strategy(*problem_.b, {lanes_.in_b, count, lanes_.value_b, lanes_.gradient_b, lanes_.spent_b}, scratch_b_);
+    for (std::size_t i = 0; i < count; ++i) evaluations_ += std::max(lanes_.spent_a[i], lanes_.spent_b[i]);
     for (std::size_t i = 0; i < count; ++i) {
       float turned[3] = {};
       for (int row = 0; row < d_; ++row) {
@@ -383,8 +393,10 @@ void search_locally(const PairTile& tile, PairScratch& scratch) {
 }
 
 void solve(const PairTile& tile, PairScratch& scratch) {
-  tile.options->method == Method::certified ? tile.kernels->certify_pairs(tile, scratch)
-                                            : search_locally(tile, scratch);
+  if (tile.options->method != Method::certified) return search_locally(tile, scratch);
+  tile.kernels->certify_pairs(tile, scratch);
+  const bool wants_normals = tile.columns.normal != nullptr || tile.contacts.normal != nullptr;
+  if (wants_normals && strategy_of(*tile.options) != Gradient::autodiff) renew_normals(tile, scratch);
 }
 
 }  // namespace thalweg

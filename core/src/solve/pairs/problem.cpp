@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "gradient/strategies.h"
+
 namespace thalweg {
 namespace {
 
@@ -191,9 +193,6 @@ Result<bool> check_pairs(const PairQueries& queries, const PairOptions& options)
   if (!std::isfinite(options.region) || options.region < 0) {
     return refused("--region", "a length of at least 0 (0: the default)", "another number");
   }
-  if (options.gradient_given && options.gradient != Gradient::autodiff) {
-    return refused("--gradient", "autodiff for pairs of shapes", std::string(name(options.gradient)));
-  }
   if (options.budget == 0) return refused("--budget", "at least 1 evaluation", "0");
   if (queries.shape_count < 2 && queries.pairs == nullptr) return refused("shapes", "two shapes", "fewer");
   for (std::size_t row = 0; row < queries.count; ++row) {
@@ -206,6 +205,9 @@ Result<bool> check_pairs(const PairQueries& queries, const PairOptions& options)
     if (a.dimension != b.dimension) {
       return refused("--with", std::to_string(a.dimension) + "D like the first shape",
                      std::to_string(b.dimension) + "D");
+    }
+    for (const Tape* tape : {&a, &b}) {
+      if (auto error = refusal(*tape, strategy_of(options), options.gradient_offset)) return *std::move(error);
     }
     if (!is_finite(a) && !is_finite(b)) {
       return refused("--with", "a bounded shape on one side at least", "two unbounded shapes");

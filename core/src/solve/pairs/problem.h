@@ -30,6 +30,11 @@ struct PairShapes {
 };
 [[nodiscard]] PairShapes shapes_of(const PairQueries& queries, std::size_t row);
 
+/// The strategy of a request: what the caller chose, else closed forms for every method.
+[[nodiscard]] inline Gradient strategy_of(const PairOptions& options) {
+  return options.gradient_given ? options.gradient : Gradient::autodiff;
+}
+
 struct PairProblem {
   const Tape* a = nullptr;
   const Tape* b = nullptr;
