@@ -28,6 +28,9 @@ namespace thalweg::bench {
 namespace {
 
 constexpr int kRounds = 5;
+/// Queries for each primitive of growth/primitives, and where they are few.
+constexpr std::size_t kDense = 256;
+constexpr std::size_t kSparse = 16;
 
 /// Times at a row of sizes.
 class Growth {
@@ -132,36 +135,61 @@ std::string wrong_verdict(const Shape& shape, const Verdicts& answers, std::size
   return "";
 }
 
+/// A scene with triangles over it.
+struct Scattered {
+  Tape tape;
+  std::vector<float> rows;
+  std::unique_ptr<Verdicts> work;
+
+  /// Returns what is wrong, or nothing.
+  std::string make(std::size_t size, std::size_t triangles) {
+    const Shape scene = scattered(size);
+    auto compiled = compile(scene);
+    if (!compiled) return to_string(compiled.error());
+    tape = std::move(compiled).value();
+    rows = triangles_over(scene, triangles);
+    work = std::make_unique<Verdicts>(tape, rows);
+    work->run(triangles, 1);
+    const std::string error = wrong_verdict(scene, *work, std::clamp<std::size_t>(100'000 / size, 10, 1000));
+    return error.empty() ? "" : std::to_string(size) + " primitives, " + error;
+  }
+  /// Of one query; small batches are repeated.
+  [[nodiscard]] double time() const {
+    const std::size_t count = work->status.size(), repeats = std::max<std::size_t>(batch(1 << 18) / count, 1);
+    const double all = seconds([&] {
+      for (std::size_t i = 0; i < repeats; ++i) work->run(count, 1);
+    });
+    return all / static_cast<double>(repeats * count);
+  }
+};
+
 void primitives(benchmark::State& state) {
   Growth growth(smoke() ? std::vector<std::size_t>{10, 100, 1000} : std::vector<std::size_t>{10, 100, 1000, 10'000});
-  std::vector<std::unique_ptr<Tape>> tapes;
-  std::vector<std::vector<float>> rows;
-  std::vector<Verdicts> work;
-  rows.reserve(growth.sizes().size());
-  std::vector<std::size_t> queries;
-  for (const std::size_t size : growth.sizes()) {
-    const Shape scene = scattered(size);
-    auto tape = compile(scene);
-    if (!tape) return refuse(state, to_string(tape.error()));
-    tapes.push_back(std::make_unique<Tape>(std::move(tape).value()));
-    queries.push_back(batch(std::clamp<std::size_t>(20'000'000 / size, 4096, 1 << 18)));
-    rows.push_back(triangles_over(scene, queries.back()));
-    work.emplace_back(*tapes.back(), rows.back());
-    work.back().run(queries.back(), 1);
-    const std::string error = wrong_verdict(scene, work.back(), std::clamp<std::size_t>(100'000 / size, 10, 1000));
-    if (!error.empty()) return refuse(state, std::to_string(size) + " primitives, " + error);
+  std::vector<Scattered> dense(growth.sizes().size());
+  Scattered sparse;
+  for (std::size_t i = 0; i < dense.size(); ++i) {
+    if (const std::string error = dense[i].make(growth.sizes()[i], batch(kDense * growth.sizes()[i])); !error.empty()) {
+      return refuse(state, error);
+    }
   }
+  if (const std::string error = sparse.make(1000, batch(kSparse * 1000)); !error.empty()) return refuse(state, error);
+  Samples ratio, sparse_seconds;
   for (auto _ : state) {
     double sum = 0;
-    for (std::size_t i = 0; i < work.size(); ++i) {
-      const double each = seconds([&] { work[i].run(queries[i], 1); }) / static_cast<double>(queries[i]);
-      growth.add(i, each);
-      sum += each;
+    std::vector<double> each;
+    for (std::size_t i = 0; i < dense.size(); ++i) {
+      each.push_back(dense[i].time());
+      growth.add(i, each.back());
+      sum += each.back();
     }
+    ratio.add(each[2] / each[0]);
+    sparse_seconds.add(sparse.time());
     state.SetIterationTime(sum);
   }
-  finish(state, growth, std::vector<std::size_t>(work.size(), 1));
-  state.counters["cost_of_1000_over_10"] = growth.median(2) / growth.median(0);
+  finish(state, growth, std::vector<std::size_t>(dense.size(), 1));
+  state.counters["cost_of_1000_over_10"] = ratio.median();
+  state.counters["cost_of_1000_over_10_spread"] = ratio.spread();
+  state.counters["ns_at_1000_sparse"] = 1e9 * sparse_seconds.median();
 }
 
 void queries(benchmark::State& state) {

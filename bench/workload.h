@@ -41,6 +41,7 @@ void refuse(benchmark::State& state, const std::string& why);
 void register_evaluate_cases();
 void register_triangle_cases();
 void register_growth_cases();
+void register_startup_cases();
 void register_pair_cases();
 
 }  // namespace thalweg::bench

@@ -3,13 +3,13 @@
 //
 // Batches of triangles and circles: plans once, solves tile by tile, counts the answers.
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <numeric>
 #include <span>
 #include <vector>
 
-#include "ordered_rows.h"
+#include "ordered_batch.h"
+#include "reuse.h"
 #include "schedule.h"
 #include "solve/plan.h"
 #include "thalweg/batch.h"
@@ -65,13 +65,28 @@ class ResultBuffer {
         columns_, wanted);
     return columns_;
   }
+  /// Asks for the memory of rows that will be written.
+  static void prefetch(std::span<const std::uint32_t> order, const CollideColumns& to, int dimension) {
+    for_each_column(
+        dimension,
+        [&]<class T>(std::size_t width, T* const& out) {
+          if (out == nullptr) return;
+          for (const std::uint32_t row : order) __builtin_prefetch(out + width * row, 1, 2);
+        },
+        to);
+  }
   /// Row i goes to row order[i] of the caller's columns.
   void scatter(std::span<const std::uint32_t> order, const CollideColumns& to, int dimension) const {
     for_each_column(
         dimension,
         [&]<class T>(std::size_t width, T* const& own, T* const& out) {
-          for (std::size_t i = 0; out != nullptr && i < order.size(); ++i) {
-            for (std::size_t k = 0; k < width; ++k) out[order[i] * width + k] = own[i * width + k];
+          if (out == nullptr) return;
+          if (width == 1) {
+            for (std::size_t i = 0; i < order.size(); ++i) out[order[i]] = own[i];
+          } else if (width == 2) {
+            for (std::size_t i = 0; i < order.size(); ++i) std::copy_n(own + 2 * i, 2, out + 2 * std::size_t{order[i]});
+          } else {
+            for (std::size_t i = 0; i < order.size(); ++i) std::copy_n(own + width * i, width, out + width * order[i]);
           }
         },
         columns_, to);
@@ -82,90 +97,95 @@ class ResultBuffer {
   CollideColumns columns_;
 };
 
-/// What one worker keeps from tile to tile.
+/// What one worker keeps from tile to tile, and from batch to batch.
 struct Worker {
-  explicit Worker(const Tape& tape) : scratch(tape) {}
   TileScratch scratch;
   std::vector<std::uint8_t> status;
   std::vector<std::uint32_t> evaluations;
-  Summary summary;
-  // Of ordered rows.
-  std::unique_ptr<OrderedRows> ordered;
   ResultBuffer results;
+  Summary summary;
 };
 
+/// Where a search evaluates besides its queries.
+Surroundings surroundings_of(const SolveLimits& limits) {
+  Surroundings around{.bounds = limits.method == Method::certified, .sizes = 0, .probe = {}};
+  if (limits.goal == Goal::deepest) around.sizes = limits.far_reaches;
+  for (const GradientRule& rule : {limits.gradient, limits.normals}) {
+    if (rule.strategy == Gradient::autodiff) continue;
+    around.probe.absolute = std::max(around.probe.absolute, rule.probe.absolute);
+    around.probe.of_value = std::max(around.probe.of_value, rule.probe.of_value);
+  }
+  return around;
+}
+
 template <class Tile>
-class CollideTask final : public TileTask {
+class CollideTask final : public TileTask, public OrderedBatch::Answer {
  public:
   CollideTask(const Tape& tape, const SolveLimits& limits, const Queries& queries, const CollideColumns& columns,
               const Execution& execution)
-      : tape_(tape),
-        limits_(limits),
-        queries_(queries),
-        columns_(columns),
-        execution_(execution),
-        workers_(worker_count(execution)) {
+      : tape_(tape), limits_(limits), queries_(queries), columns_(columns), execution_(execution) {
     target_ = execution.target == nullptr ? &default_target() : execution.target;
     layout_.dimension = static_cast<std::size_t>(tape.dimension);
     layout_.points = std::is_same_v<Tile, TriangleTile> ? 3 : 1;
     layout_.has_radius = !std::is_same_v<Tile, TriangleTile>;
-    // Local methods, and gradients by probes, evaluate outside of the queries, where a tape shortened for them says
-    // nothing; contacts are written in place.
-    const bool stays_inside = limits.method == Method::certified && limits.normals.strategy == Gradient::autodiff;
-    if (stays_inside && limits.contacts == 0 && tape.instructions.size() >= kLongTape &&
-        queries.count >= kOrderedTile && queries.count < std::numeric_limits<std::uint32_t>::max()) {
-      order_ = spatial_order(layout_, queries.rows, queries.count);
+    workers_->resize(std::max(workers_->size(), worker_count(execution)));
+    for (const auto& worker : *workers_) {
+      if (worker != nullptr) worker->summary = {};
     }
   }
 
-  /// Rows for one call of run().
-  [[nodiscard]] std::size_t rows_per_task() const {
-    return order_.empty() ? tile_for(limits_, queries_.count, execution_) : ordered_tile() * kBlockTiles;
-  }
-
-  void run(std::size_t begin, std::size_t end, std::size_t index) override {
-    std::unique_ptr<Worker>& worker = workers_[index];
-    if (worker == nullptr) worker = std::make_unique<Worker>(tape_);
-    if (order_.empty()) {
-      answer(tape_, queries_.rows + begin * layout_.width(), end - begin,
-             columns_from(columns_, begin, tape_.dimension, limits_.contacts), *worker);
+  Summary run() {
+    bool complete = false;
+    if (answers_in_order()) {
+      OrderedBatch batch(tape_, layout_, queries_.rows, queries_.count, surroundings_of(limits_), execution_);
+      complete = batch.run(*this);
     } else {
-      run_ordered({order_.data() + begin, end - begin}, *worker);
+      complete = schedule(*this, queries_.count, tile_for(limits_, queries_.count, execution_), execution_);
     }
-  }
-
-  [[nodiscard]] Summary summary() const {
     Summary total;
-    for (const auto& worker : workers_) {
+    for (const auto& worker : *workers_) {
       if (worker == nullptr) continue;
       total.rows += worker->summary.rows;
       total.evaluations += worker->summary.evaluations;
-      for (std::size_t i = 0; i < 5; ++i) total.by_status[i] += worker->summary.by_status[i];
+      for (std::size_t i = 0; i < std::size(total.by_status); ++i) {
+        total.by_status[i] += worker->summary.by_status[i];
+      }
     }
+    total.cancelled = !complete;
     return total;
   }
 
- private:
-  [[nodiscard]] std::size_t ordered_tile() const { return execution_.tile == 0 ? kOrderedTile : execution_.tile; }
+  void run(std::size_t begin, std::size_t end, std::size_t index) override {
+    answer(tape_, queries_.rows + begin * layout_.width(), end - begin,
+           columns_from(columns_, begin, tape_.dimension, limits_.contacts), worker(index));
+  }
 
-  void run_ordered(std::span<const std::uint32_t> order, Worker& worker) {
-    if (worker.ordered == nullptr) {
-      const float around = limits_.goal == Goal::deepest ? limits_.far_reaches : 0;
-      worker.ordered = std::make_unique<OrderedRows>(tape_, layout_, true, around);
-    }
-    OrderedRows& rows = *worker.ordered;
-    rows.take(queries_.rows, order, ordered_tile(), *target_->kernels);
-    for (std::size_t begin = 0; begin < order.size(); begin += ordered_tile()) {
-      const auto own = order.subspan(begin, std::min(ordered_tile(), order.size() - begin));
-      const CollideColumns& results = worker.results.take(columns_, own.size(), tape_.dimension);
-      answer(rows.tape_of(begin / ordered_tile()), rows.rows() + begin * layout_.width(), own.size(), results, worker);
-      worker.results.scatter(own, columns_, tape_.dimension);
-    }
+  void answer(const OrderedBatch::Part& part) override {
+    Worker& own = worker(part.worker);
+    ResultBuffer::prefetch(part.order, columns_, tape_.dimension);
+    const CollideColumns& results = own.results.take(columns_, part.order.size(), tape_.dimension);
+    answer(part.tape, part.rows, part.order.size(), results, own);
+    own.results.scatter(part.order, columns_, tape_.dimension);
+  }
+
+ private:
+  /// Nearest surface points, and the point of contact of a disc as published, may be anywhere, where a tape shortened
+  /// for the queries says nothing; contacts are written in place.
+  [[nodiscard]] bool answers_in_order() const {
+    const bool stays = limits_.method != Method::published && limits_.gradient.strategy != Gradient::closest_point &&
+                       limits_.normals.strategy != Gradient::closest_point;
+    return stays && limits_.contacts == 0 && OrderedBatch::suits(tape_, queries_.count, kLongTape);
+  }
+
+  Worker& worker(std::size_t index) {
+    std::unique_ptr<Worker>& own = (*workers_)[index];
+    if (own == nullptr) own = std::make_unique<Worker>();
+    return *own;
   }
 
   void answer(const Tape& tape, const float* rows, std::size_t count, const CollideColumns& columns, Worker& worker) {
-    worker.status.resize(count);
-    worker.evaluations.resize(count);
+    worker.status.resize(std::max(worker.status.size(), count));
+    worker.evaluations.resize(std::max(worker.evaluations.size(), count));
     worker.scratch.twin.use(tape);
     Tile tile;
     tile.tape = &tape;
@@ -191,8 +211,7 @@ class CollideTask final : public TileTask {
   const Execution& execution_;
   const Target* target_;
   RowLayout layout_;
-  std::vector<std::uint32_t> order_;  ///< empty: the caller's
-  std::vector<std::unique_ptr<Worker>> workers_;
+  Reused<std::vector<std::unique_ptr<Worker>>> workers_;
 };
 
 template <class Tile>
@@ -200,11 +219,7 @@ Result<Summary> collide(QueryKind kind, const Tape& tape, const Queries& queries
                         const CollideColumns& columns, const Execution& execution) {
   const auto limits = plan(tape, kind, options);
   if (!limits) return limits.error();
-  CollideTask<Tile> task(tape, *limits, queries, columns, execution);
-  const bool complete = schedule(task, queries.count, task.rows_per_task(), execution);
-  Summary summary = task.summary();
-  summary.cancelled = !complete;
-  return summary;
+  return CollideTask<Tile>(tape, *limits, queries, columns, execution).run();
 }
 
 }  // namespace

@@ -12,7 +12,8 @@
 
 #include "gradient/strategies.h"
 #include "gradient/ties.h"
-#include "ordered_rows.h"
+#include "ordered_batch.h"
+#include "reuse.h"
 #include "schedule.h"
 #include "solve/arena.h"
 #include "thalweg/batch.h"
@@ -30,57 +31,73 @@ const Target& target_of(const Execution& execution) {
   return execution.target == nullptr ? default_target() : *execution.target;
 }
 
-class EvaluateTask final : public TileTask {
+/// What one worker keeps from tile to tile, and from batch to batch.
+struct Worker {
+  Arena arena;
+  EvaluateSummary summary;
+};
+
+class EvaluateTask final : public TileTask, public OrderedBatch::Answer {
  public:
   EvaluateTask(const Tape& tape, const Points& points, const PointColumns& out, const Execution& execution)
-      : tape_(tape), points_(points), out_(out), target_(target_of(execution)), workers_(worker_count(execution)) {
+      : tape_(tape), points_(points), out_(out), execution_(execution), target_(target_of(execution)) {
     d_ = static_cast<std::size_t>(tape.dimension);
+    workers_->resize(std::max(workers_->size(), worker_count(execution)));
+    for (const auto& worker : *workers_) {
+      if (worker != nullptr) worker->summary = {};
+    }
   }
 
   void take_gradients_by(const GradientRule& rule) { rule_ = rule; }
 
-  /// Long tapes: points in spatial order. Strategies that probe around a point may leave its tile's region.
-  void order_rows() {
-    if (!in_rows() || tape_.instructions.size() < kLongTapeForValues || points_.count < kOrderedTile ||
-        points_.count >= std::numeric_limits<std::uint32_t>::max()) {
-      return;
-    }
-    order_ = spatial_order(layout(), points_.rows, points_.count);
-  }
-  [[nodiscard]] std::size_t rows_per_task(const Execution& execution) const {
-    if (execution.tile != 0) return execution.tile;
-    return order_.empty() ? kTile : kOrderedTile * kBlockTiles;
-  }
-
-  void run(std::size_t begin, std::size_t end, std::size_t index) override {
-    std::unique_ptr<Worker>& worker = workers_[index];
-    if (worker == nullptr) worker = std::make_unique<Worker>();
-    worker->arena.reset();
-    worker->summary.rows += end - begin;
-    if (!order_.empty()) {
-      run_ordered({order_.data() + begin, end - begin}, *worker);
+  EvaluateSummary run() {
+    bool complete = false;
+    // Nearest surface points may be anywhere, where a tape shortened for the points says nothing.
+    if ((in_rows() || rule_.strategy != Gradient::closest_point) &&
+        OrderedBatch::suits(tape_, points_.count, kLongTapeForValues)) {
+      const Surroundings around{.bounds = false, .sizes = 0, .probe = in_rows() ? ProbeRule{} : rule_.probe};
+      OrderedBatch batch(tape_, {.dimension = d_}, points_.rows, points_.count, around, execution_);
+      complete = batch.run(*this);
     } else {
-      in_rows() ? run_rows(begin, end - begin, *worker) : run_columns(begin, end - begin, *worker);
+      complete = schedule(*this, points_.count, execution_.tile == 0 ? kTile : execution_.tile, execution_);
     }
-    if (out_.ambiguous != nullptr || out_.one_sided != nullptr) run_ties(begin, end - begin, worker->arena);
-  }
-
-  [[nodiscard]] EvaluateSummary summary() const {
     EvaluateSummary total;
-    for (const auto& worker : workers_) {
+    for (const auto& worker : *workers_) {
       if (worker == nullptr) continue;
       total.rows += worker->summary.rows;
       total.bad_rows += worker->summary.bad_rows;
       total.evaluations += worker->summary.evaluations;
     }
+    total.cancelled = !complete;
     return total;
   }
 
+  void run(std::size_t begin, std::size_t end, std::size_t index) override {
+    Worker& own = worker(index);
+    own.summary.rows += end - begin;
+    own.arena.reset();
+    const Rows rows{tape_, begin, nullptr, end - begin};
+    in_rows() ? run_rows(rows, own) : run_columns(rows, own);
+    if (out_.ambiguous != nullptr || out_.one_sided != nullptr) run_ties(rows, own.arena);
+  }
+
+  void answer(const OrderedBatch::Part& part) override {
+    Worker& own = worker(part.worker);
+    own.summary.rows += part.order.size();
+    own.arena.reset();
+    const Rows rows{part.tape, 0, part.order.data(), part.order.size()};
+    in_rows() ? run_gathered(rows, part.rows, own) : run_columns(rows, own);
+    if (out_.ambiguous != nullptr || out_.one_sided != nullptr) run_ties(rows, own.arena);
+  }
+
  private:
-  struct Worker {
-    Arena arena;
-    EvaluateSummary summary;
-    std::unique_ptr<OrderedRows> ordered;
+  /// Some of the caller's rows, and a tape for them.
+  struct Rows {
+    const Tape& tape;
+    std::size_t begin;
+    const std::uint32_t* order;  ///< null: one after the other from `begin` on
+    std::size_t count;
+    [[nodiscard]] std::size_t operator[](std::size_t i) const { return order == nullptr ? begin + i : order[i]; }
   };
   struct TileColumns {
     float* points[3] = {};
@@ -91,67 +108,66 @@ class EvaluateTask final : public TileTask {
   };
 
   [[nodiscard]] bool in_rows() const { return rule_.strategy == Gradient::autodiff || out_.gradient == nullptr; }
-  [[nodiscard]] RowLayout layout() const { return {.dimension = d_, .points = 1, .has_radius = false}; }
 
-  /// Rows of the caller's columns `order` names: a tape for each tile of neighbours.
-  void run_ordered(std::span<const std::uint32_t> order, Worker& worker) const {
-    if (worker.ordered == nullptr) worker.ordered = std::make_unique<OrderedRows>(tape_, layout(), false, 0.0F);
-    OrderedRows& rows = *worker.ordered;
-    rows.take(points_.rows, order, kOrderedTile, *target_.kernels);
+  Worker& worker(std::size_t index) {
+    std::unique_ptr<Worker>& own = (*workers_)[index];
+    if (own == nullptr) own = std::make_unique<Worker>();
+    return *own;
+  }
+
+  /// Rows that were copied together.
+  void run_gathered(const Rows& rows, const float* gathered, Worker& worker) const {
     float* scratch = worker.arena.take<float>(scratch_floats(tape_));
-    float* value = worker.arena.take<float>(kOrderedTile);
-    float* gradient = out_.gradient == nullptr ? nullptr : worker.arena.take<float>(kOrderedTile * d_);
-    for (std::size_t begin = 0; begin < order.size(); begin += kOrderedTile) {
-      const auto own = order.subspan(begin, std::min(kOrderedTile, order.size() - begin));
-      const Tape& tape = rows.tape_of(begin / kOrderedTile);
-      const std::size_t bad_rows =
-          target_.kernels->rows(tape, rows.rows() + begin * d_, own.size(), value, gradient, scratch);
-      worker.summary.bad_rows += bad_rows;
-      worker.summary.evaluations += own.size() - bad_rows;
-      for (std::size_t i = 0; i < own.size(); ++i) {
-        if (out_.value != nullptr) out_.value[own[i]] = value[i];
-        for (std::size_t k = 0; gradient != nullptr && k < d_; ++k)
-          out_.gradient[own[i] * d_ + k] = gradient[i * d_ + k];
-        if (out_.evaluations != nullptr) out_.evaluations[own[i]] = is_bad(own[i]) ? 0 : 1;
-      }
+    float* value = worker.arena.take<float>(rows.count);
+    float* gradient = out_.gradient == nullptr ? nullptr : worker.arena.take<float>(rows.count * d_);
+    const std::size_t bad_rows = target_.kernels->rows(rows.tape, gathered, rows.count, value, gradient, scratch);
+    worker.summary.bad_rows += bad_rows;
+    worker.summary.evaluations += rows.count - bad_rows;
+    for (std::size_t i = 0; i < rows.count; ++i) {
+      const std::size_t row = rows[i];
+      if (out_.value != nullptr) out_.value[row] = value[i];
+      for (std::size_t k = 0; gradient != nullptr && k < d_; ++k) out_.gradient[row * d_ + k] = gradient[i * d_ + k];
+      if (out_.evaluations != nullptr) out_.evaluations[row] = is_bad(row) ? 0 : 1;
     }
   }
 
-  void run_rows(std::size_t begin, std::size_t count, Worker& worker) const {
+  void run_rows(const Rows& rows, Worker& worker) const {
     float* scratch = worker.arena.take<float>(scratch_floats(tape_));
-    float* value = out_.value == nullptr ? nullptr : out_.value + begin;
-    float* gradient = out_.gradient == nullptr ? nullptr : out_.gradient + begin * d_;
-    const float* rows = points_.rows + begin * d_;
-    const std::size_t bad_rows = target_.kernels->rows(tape_, rows, count, value, gradient, scratch);
+    float* value = out_.value == nullptr ? nullptr : out_.value + rows.begin;
+    float* gradient = out_.gradient == nullptr ? nullptr : out_.gradient + rows.begin * d_;
+    const std::size_t bad_rows =
+        target_.kernels->rows(tape_, points_.rows + rows.begin * d_, rows.count, value, gradient, scratch);
     worker.summary.bad_rows += bad_rows;
-    worker.summary.evaluations += count - bad_rows;
+    worker.summary.evaluations += rows.count - bad_rows;
     if (out_.evaluations == nullptr) return;
-    for (std::size_t i = 0; i < count; ++i) out_.evaluations[begin + i] = is_bad(begin + i) ? 0 : 1;
+    for (std::size_t i = 0; i < rows.count; ++i) out_.evaluations[rows[i]] = is_bad(rows[i]) ? 0 : 1;
   }
 
-  void run_columns(std::size_t begin, std::size_t count, Worker& worker) const {
-    TileColumns tile = take(count, worker.arena);
-    load(begin, count, tile);
+  void run_columns(const Rows& rows, Worker& worker) const {
+    TileColumns tile = take(rows.count, worker.arena);
+    load(rows, tile);
     const GradientColumns columns{.points = tile.points,
-                                  .count = count,
+                                  .count = rows.count,
                                   .value = out_.value == nullptr ? nullptr : tile.value,
                                   .gradient = tile.gradient,
                                   .evaluations = tile.evaluations,
                                   .witness = out_.witness == nullptr ? nullptr : tile.witness};
-    evaluate_gradient(rule_, tape_, *target_.kernels, columns, worker.arena.take<float>(scratch_floats(tape_)));
-    for (std::size_t i = 0; i < count; ++i) store(begin + i, i, tile, worker.summary);
+    evaluate_gradient(rule_, rows.tape, *target_.kernels, columns, worker.arena.take<float>(scratch_floats(tape_)));
+    for (std::size_t i = 0; i < rows.count; ++i) store(rows[i], i, tile, worker.summary);
   }
 
-  void run_ties(std::size_t begin, std::size_t count, Arena& arena) const {
-    const TileColumns tile = take(count, arena);
-    load(begin, count, tile);
-    const Ties ties = Ties::make(arena, tape_.dimension, count, out_.one_sided != nullptr);
-    find_ties(tape_, *target_.kernels, tile.points, count, ties, arena.take<float>(scratch_floats(tape_)), arena);
-    for (std::size_t i = 0; i < count; ++i) {
-      const bool bad = is_bad(begin + i);
-      if (out_.ambiguous != nullptr) out_.ambiguous[begin + i] = bad ? 0 : ties.tied[i];
+  void run_ties(const Rows& rows, Arena& arena) const {
+    const TileColumns tile = take(rows.count, arena);
+    load(rows, tile);
+    const Ties ties = Ties::make(arena, tape_.dimension, rows.count, out_.one_sided != nullptr);
+    find_ties(rows.tape, *target_.kernels, tile.points, rows.count, ties, arena.take<float>(scratch_floats(tape_)),
+              arena);
+    for (std::size_t i = 0; i < rows.count; ++i) {
+      const std::size_t row = rows[i];
+      const bool bad = is_bad(row);
+      if (out_.ambiguous != nullptr) out_.ambiguous[row] = bad ? 0 : ties.tied[i];
       if (out_.one_sided == nullptr) continue;
-      float* to = out_.one_sided + 2 * d_ * (begin + i);
+      float* to = out_.one_sided + 2 * d_ * row;
       for (const auto& side : ties.sides) {
         for (std::size_t axis = 0; axis < d_; ++axis) *to++ = bad ? kNan : side[axis][i];
       }
@@ -178,11 +194,11 @@ class EvaluateTask final : public TileTask {
     return false;
   }
 
-  void load(std::size_t begin, std::size_t count, const TileColumns& tile) const {
-    for (std::size_t i = 0; i < count; ++i) {
-      const bool bad = is_bad(begin + i);
+  void load(const Rows& rows, const TileColumns& tile) const {
+    for (std::size_t i = 0; i < rows.count; ++i) {
+      const bool bad = is_bad(rows[i]);
       for (std::size_t axis = 0; axis < d_; ++axis) {
-        tile.points[axis][i] = bad ? 0 : points_.rows[(begin + i) * d_ + axis];
+        tile.points[axis][i] = bad ? 0 : points_.rows[rows[i] * d_ + axis];
       }
     }
   }
@@ -202,27 +218,19 @@ class EvaluateTask final : public TileTask {
   const Tape& tape_;
   const Points points_;
   const PointColumns out_;
+  const Execution& execution_;
   const Target& target_;
   GradientRule rule_;
   std::size_t d_ = 2;
-  std::vector<std::uint32_t> order_;  ///< empty: the caller's
-  std::vector<std::unique_ptr<Worker>> workers_;
+  Reused<std::vector<std::unique_ptr<Worker>>> workers_;
 };
-
-EvaluateSummary run(EvaluateTask& task, std::size_t count, const Execution& execution) {
-  task.order_rows();
-  const bool complete = schedule(task, count, task.rows_per_task(execution), execution);
-  EvaluateSummary summary = task.summary();
-  summary.cancelled = !complete;
-  return summary;
-}
 
 }  // namespace
 
 std::size_t evaluate(const Tape& tape, const float* points, std::size_t count, float* value, float* gradient,
                      const Execution& execution) {
   EvaluateTask task(tape, {points, count}, {.value = value, .gradient = gradient}, execution);
-  return run(task, count, execution).bad_rows;
+  return task.run().bad_rows;
 }
 
 Result<EvaluateSummary> evaluate(const Tape& tape, Points points, const GradientOptions& options,
@@ -236,7 +244,7 @@ Result<EvaluateSummary> evaluate(const Tape& tape, Points points, const Gradient
   }
   EvaluateTask task(tape, points, columns, execution);
   task.take_gradients_by(rule_of(tape, options.strategy, options.offset));
-  return run(task, points.count, execution);
+  return task.run();
 }
 
 }  // namespace thalweg

@@ -1,102 +1,133 @@
 // SPDX-FileCopyrightText: The thalweg authors
 // SPDX-License-Identifier: MIT
 //
-// A counting sort over the cells of a coarse grid: two passes over the rows, whatever their number.
+// A counting sort over the cells of a coarse grid, its passes over the rows on all threads but for the last.
 #include "order.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
-#include "kernels/kernels.h"
+#include "schedule.h"
 
 namespace thalweg {
 namespace {
 
-/// Bits of a cell's number per axis: 2^16 cells in the plane, 2^15 in space.
-constexpr int bits_per_axis(std::size_t dimension) { return dimension == 2 ? 8 : 5; }
-
-bool is_answerable(const RowLayout& layout, const float* row) {
-  return std::all_of(row, row + layout.width(), [](float x) { return std::fabs(x) <= kLargestCoordinate; });
+constexpr std::size_t kRowsPerTask = 8192;
+/// Of each axis: some cells a row, but no more than 2^16 in the plane and 2^15 in space.
+std::size_t halvings_for(std::size_t dimension, std::size_t count) {
+  return std::min<std::size_t>(dimension == 2 ? 8 : 5, static_cast<std::size_t>(std::bit_width(count)) / dimension + 1);
 }
 
-/// The grid of cells over all rows.
-class Grid {
+/// The bits of a number below 2^8 with dimension - 1 zeros after each.
+constexpr std::array<std::uint32_t, 256> spread_bits(std::size_t dimension) {
+  std::array<std::uint32_t, 256> table{};
+  for (std::uint32_t i = 0; i < 256; ++i) {
+    for (std::uint32_t bit = 0; bit < 8; ++bit)
+      table[i] |= (i >> bit & 1) << bit * static_cast<std::uint32_t>(dimension);
+  }
+  return table;
+}
+constexpr std::array<std::uint32_t, 256> kSpread[2] = {spread_bits(2), spread_bits(3)};
+
+/// The cells of a box: bits of the axes interleaved.
+class Cells {
  public:
-  Grid(const RowLayout& layout, const Extent& extent) : layout_(layout), bits_(bits_per_axis(layout.dimension)) {
-    const auto cells = static_cast<float>(1 << bits_);
+  Cells(const RowLayout& layout, const Extent& extent, std::size_t halvings) : spread_(kSpread[layout.dimension - 2]) {
+    const auto cells = static_cast<float>(std::size_t{1} << halvings);
+    last_ = cells - 1;
     for (std::size_t axis = 0; axis < layout.dimension; ++axis) {
       const float size = extent.hi[axis] - extent.lo[axis];
       lo_[axis] = extent.lo[axis];
       per_unit_[axis] = size > 0 ? cells / size : 0;
     }
   }
-  [[nodiscard]] std::size_t cells() const {
-    return std::size_t{1} << (static_cast<std::size_t>(bits_) * layout_.dimension);
-  }
-
-  /// The cell of a row's first point, bits of the axes interleaved; 0 for rows that cannot be answered.
-  [[nodiscard]] std::size_t cell(const float* row) const {
-    if (!is_answerable(layout_, row)) return 0;
-    const auto last = static_cast<float>((1 << bits_) - 1);
-    std::size_t key = 0;
-    for (std::size_t axis = 0; axis < layout_.dimension; ++axis) {
-      const float at = std::clamp((row[axis] - lo_[axis]) * per_unit_[axis], 0.0F, last);
-      const auto index = static_cast<std::size_t>(at);
-      for (int bit = 0; bit < bits_; ++bit) {
-        key |= (index >> bit & 1) << (static_cast<std::size_t>(bit) * layout_.dimension + axis);
-      }
+  /// Of a row's first point; 0 for rows that cannot be answered.
+  template <std::size_t kDimension, std::size_t kPoints, bool kHasRadius>
+  [[nodiscard]] std::uint16_t of(const float* row, RowOf<kDimension, kPoints, kHasRadius> layout) const {
+    if (!layout.is_answerable(row)) return 0;
+    std::uint32_t key = 0;
+    for (std::size_t axis = 0; axis < kDimension; ++axis) {
+      const float at = std::clamp((row[axis] - lo_[axis]) * per_unit_[axis], 0.0F, last_);
+      key |= spread_[static_cast<std::size_t>(at)] << axis;
     }
-    return key;
+    return static_cast<std::uint16_t>(key);
   }
 
  private:
-  RowLayout layout_;
-  int bits_;
+  const std::array<std::uint32_t, 256>& spread_;
+  float last_ = 0;
   float lo_[3] = {};
   float per_unit_[3] = {};
 };
 
-}  // namespace
-
-void Extent::add(const RowLayout& layout, const float* row) {
-  if (!is_answerable(layout, row)) return;
-  const float radius = layout.has_radius ? std::fabs(row[layout.dimension]) : 0;
-  double square = 0;
-  for (std::size_t axis = 0; axis < layout.dimension; ++axis) {
-    float least = row[axis];
-    float most = row[axis];
-    for (std::size_t p = 1; p < layout.points; ++p) {
-      least = std::min(least, row[p * layout.dimension + axis]);
-      most = std::max(most, row[p * layout.dimension + axis]);
-    }
-    least -= radius;
-    most += radius;
-    lo[axis] = is_empty ? least : std::min(lo[axis], least);
-    hi[axis] = is_empty ? most : std::max(hi[axis], most);
-    square += static_cast<double>(most - least) * static_cast<double>(most - least);
-  }
-  largest_row = std::max(largest_row, static_cast<float>(std::sqrt(square) * 1.000001));
-  is_empty = false;
+/// Calls body(begin, end, worker) until all rows are done, on all threads.
+template <class Body>
+void for_rows(std::size_t count, const Execution& execution, const Body& body) {
+  struct Task final : TileTask {
+    explicit Task(const Body& each) : body(each) {}
+    void run(std::size_t begin, std::size_t end, std::size_t worker) override { body(begin, end, worker); }
+    const Body& body;
+  } task(body);
+  // Neither counted nor cut short: the rows themselves are still to be answered.
+  Execution all = execution;
+  all.done = nullptr;
+  all.cancelled = nullptr;
+  schedule(task, count, kRowsPerTask, all);
 }
 
-std::vector<std::uint32_t> spatial_order(const RowLayout& layout, const float* rows, std::size_t count) {
-  Extent extent;
-  RowLayout first_points = layout;
-  first_points.points = 1;
-  for (std::size_t i = 0; i < count; ++i) extent.add(first_points, rows + i * layout.width());
-  const Grid grid(layout, extent);
-  std::vector<std::uint16_t> cell(count);
-  std::vector<std::size_t> next(grid.cells() + 1, 0);
-  for (std::size_t i = 0; i < count; ++i) {
-    cell[i] = static_cast<std::uint16_t>(grid.cell(rows + i * layout.width()));
-    ++next[cell[i] + std::size_t{1}];
+}  // namespace
+
+void SpatialOrder::sort(const RowLayout& layout, const float* rows, std::size_t count, const Execution& execution) {
+  layout_ = layout;
+  halvings_ = halvings_for(layout.dimension, count);
+  found_.assign(worker_count(execution), {});
+  cell_.resize(count);
+  with_row(layout, [&]<class Row>(Row row) {
+    for_rows(count, execution, [&](std::size_t begin, std::size_t end, std::size_t worker) {
+      Extent extent;
+      for (std::size_t i = begin; i < end; ++i) extent.add(row.extent(rows + i * Row::kWidth));
+      found_[worker].add(extent);
+    });
+    all_ = {};
+    for (const Extent& extent : found_) all_.add(extent);
+    const Cells cells(layout, all_, halvings_);
+    for_rows(count, execution, [&](std::size_t begin, std::size_t end, std::size_t) {
+      for (std::size_t i = begin; i < end; ++i) cell_[i] = cells.of(rows + i * Row::kWidth, row);
+    });
+  });
+  begin_.assign((std::size_t{1} << levels()) + 1, 0);
+  for (const std::uint16_t cell : cell_) ++begin_[cell + std::size_t{1}];
+  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+  rows_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) rows_[begin_[cell_[i]]++] = static_cast<std::uint32_t>(i);
+  // Each entry has moved on to the next cell's first row.
+  std::move_backward(begin_.begin(), begin_.end() - 1, begin_.end());
+  begin_[0] = 0;
+}
+
+Extent SpatialOrder::extent_of(std::size_t first_cell, int level) const {
+  Extent box;
+  const auto cells = static_cast<double>(std::size_t{1} << halvings_);
+  for (std::size_t axis = 0; axis < layout_.dimension; ++axis) {
+    std::size_t index = 0, wide = 1;
+    for (std::size_t bit = axis, place = 0; bit < static_cast<std::size_t>(levels());
+         bit += layout_.dimension, ++place) {
+      index |= (first_cell >> bit & 1) << place;
+      if (bit < static_cast<std::size_t>(level)) wide *= 2;
+    }
+    const auto lo = static_cast<double>(all_.lo[axis]), hi = static_cast<double>(all_.hi[axis]);
+    const double size = (hi - lo) / cells;
+    // A cell's number is rounded, and its rows reach beyond it.
+    const double margin =
+        0.01 * size + 1e-6 * std::max(std::fabs(lo), std::fabs(hi)) + static_cast<double>(all_.largest_row);
+    box.lo[axis] = static_cast<float>(lo + static_cast<double>(index) * size - margin);
+    box.hi[axis] = static_cast<float>(lo + static_cast<double>(index + wide) * size + margin);
   }
-  std::partial_sum(next.begin(), next.end(), next.begin());
-  std::vector<std::uint32_t> order(count);
-  for (std::size_t i = 0; i < count; ++i) order[next[cell[i]]++] = static_cast<std::uint32_t>(i);
-  return order;
+  box.largest_row = all_.largest_row;
+  return box;
 }
 
 }  // namespace thalweg

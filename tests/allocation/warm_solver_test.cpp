@@ -204,6 +204,35 @@ TEST(WarmPairSolver, AllocatesNothing) {
   }
 }
 
+Shape many_discs() {
+  std::vector<Shape> all;
+  for (int i = 0; i < 300; ++i) all.push_back(circle(0.1).translate(Vec2{i % 20 * 0.4 - 4, i / 20 * 0.4 - 3}));
+  return union_(all);
+}
+
+TEST(WarmBatch, AllocatesNothing) {
+  constexpr std::size_t kCount = 3000;
+  oracle::Random random(3);
+  std::vector<float> rows(6 * kCount);
+  for (float& x : rows) x = static_cast<float>(random.uniform(-4, 4));
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = rows[i / 6 * 6 + i % 2] + 0.05F * rows[i];
+  std::vector<std::uint8_t> status(kCount);
+  std::vector<float> value(kCount), gradient(2 * kCount);
+  // Short and long: in the caller's order, and in spatial order by shortened tapes.
+  for (const Shape& shape : {flat_and_round(), many_discs()}) {
+    const Tape tape = std::move(compile(shape)).value();
+    CollideColumns columns;
+    columns.status = status.data(), columns.value = value.data();
+    const auto run = [&] {
+      static_cast<void>(collide_triangles(tape, {rows.data(), kCount}, {}, columns, {.threads = 1}));
+      static_cast<void>(collide_circles(tape, {rows.data(), kCount}, {}, columns, {.threads = 1}));
+      evaluate(tape, rows.data(), kCount, value.data(), gradient.data(), {.threads = 1});
+    };
+    for (int round = 0; round < 3; ++round) run();
+    EXPECT_EQ(allocations_of(run), 0U) << tape.instructions.size();
+  }
+}
+
 TEST(WarmGrid, AllocatesNothing) {
   const Tape tape = std::move(compile(flat_and_round())).value();
   const Grid grid{.origin = {-4, -4}, .step = {{0.02}, {0, 0.02}}, .size = {400, 400, 1}};

@@ -83,11 +83,13 @@ Enclosure64 enclosure_at(const Machine<Real>& m, const Cell64& cell) {
 
 namespace simd = HWY_NAMESPACE;
 
-Twin::Twin(const Tape& tape)
-    : tape_(&tape),
-      memory_(static_cast<std::size_t>(tape.register_count) * 4 + static_cast<std::size_t>(tape.position_count) * 3 +
-              4),
-      definition_(static_cast<std::size_t>(tape.position_count)) {}
+void Twin::use(const Tape& tape) {
+  tape_ = &tape;
+  const auto registers = static_cast<std::size_t>(tape.register_count);
+  const auto positions = static_cast<std::size_t>(tape.position_count);
+  memory_.resize(std::max(memory_.size(), registers * 4 + positions * 3 + 4));
+  definition_.resize(std::max(definition_.size(), positions));
+}
 
 double Twin::value(const double* point) {
   const auto m = simd::twin_machine(*tape_, memory_.data(), definition_.data(), point);

@@ -25,10 +25,11 @@ struct Enclosure64 {
 /// Evaluates one tape in double; holds the machine's memory, so one per thread.
 class Twin {
  public:
-  explicit Twin(const Tape& tape);
-  /// From now on this tape, a shortened one of the first or that one again: where it has the bits of the full tape in
-  /// float32 it has them in double, whose errors are a small part of what regions are widened by.
-  void use(const Tape& tape) { tape_ = &tape; }
+  Twin() = default;
+  explicit Twin(const Tape& tape) { use(tape); }
+  /// From now on this tape. A shortened one will do: where it has the bits of the full tape in float32 it has them in
+  /// double, whose errors are a small part of what regions are widened by.
+  void use(const Tape& tape);
   [[nodiscard]] double value(const double* point);
   double gradient(const double* point, double* gradient);
   [[nodiscard]] Enclosure64 enclose(const double* centre, const Cell64& cell);
@@ -37,7 +38,7 @@ class Twin {
   static constexpr double kSlackRatio = 0x1p-29;
 
  private:
-  const Tape* tape_;
+  const Tape* tape_ = nullptr;
   std::vector<double> memory_;
   std::vector<std::uint32_t> definition_;
 };

@@ -58,6 +58,7 @@ struct WaitingCell {
 
 /// A worker's memory, reused from tile to tile.
 struct TileScratch {
+  TileScratch() = default;
   explicit TileScratch(const Tape& tape) : twin(tape) {}
   Arena arena;
   Twin twin;

@@ -99,6 +99,77 @@ INSTANTIATE_TEST_SUITE_P(Dimensions, OrderedRows,
                          testing::Combine(testing::Values(2, 3), testing::Values(Goal::verdict, Goal::deepest),
                                           testing::Values(Gradient::autodiff, Gradient::central)));
 
+/// Triangles of a few units over the whole world.
+std::vector<float> scattered_triangles(std::size_t count, std::size_t d) {
+  Random random(11);
+  std::vector<float> rows;
+  for (std::size_t i = 0; i < count; ++i) {
+    double centre[3];
+    for (double& x : centre) x = random.uniform(0, kWorld);
+    for (std::size_t k = 0; k < 3 * d; ++k) rows.push_back(static_cast<float>(centre[k % d] + random.uniform(-20, 20)));
+  }
+  return rows;
+}
+
+class OrderedLocalMethods : public testing::TestWithParam<std::tuple<int, Method, Gradient>> {};
+
+TEST_P(OrderedLocalMethods, AnswerAsIfAlone) {
+  const auto [dimension, method, gradient] = GetParam();
+  const auto d = static_cast<std::size_t>(dimension);
+  const Tape tape = long_tape(dimension);
+  constexpr std::size_t kCount = 700;
+  const std::vector<float> rows = scattered_triangles(kCount, d);
+  CollideOptions options;
+  options.method = method;
+  options.gradient = gradient, options.gradient_given = true;
+  options.gradient_offset = {.absolute = 3, .of_value = 0.2, .of_scene = 0};
+  Answers alone(kCount, d), together(kCount, d);
+  for (std::size_t begin = 0; begin < kCount; begin += 100) {
+    ASSERT_TRUE(collide_triangles(tape, {&rows[begin * 3 * d], 100}, options, alone.from(begin, d), {.threads = 1}));
+  }
+  ASSERT_TRUE(collide_triangles(tape, {rows.data(), kCount}, options, together.from(0, d), {.threads = 2}));
+  EXPECT_TRUE(together == alone);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, OrderedLocalMethods,
+                         testing::Combine(testing::Values(2, 3),
+                                          testing::Values(Method::accelerated, Method::thesis, Method::thesis_fixed,
+                                                          Method::projected, Method::frank_wolfe,
+                                                          Method::frank_wolfe_search, Method::golden_section,
+                                                          Method::distance_step),
+                                          testing::Values(Gradient::autodiff, Gradient::central, Gradient::simplex)));
+
+TEST(OrderedPoints, HaveTheColumnsOfEveryStrategyAsIfAlone) {
+  const Tape tape = long_tape(2, 160);
+  Random random(3);
+  constexpr std::size_t kCount = 2000;
+  std::vector<float> rows(2 * kCount);
+  for (float& x : rows) x = static_cast<float>(random.uniform(-100, kWorld + 100));
+  for (const Gradient strategy :
+       {Gradient::autodiff, Gradient::forward, Gradient::dichotomy, Gradient::closest_point}) {
+    const GradientOptions options{.strategy = strategy, .offset = {.absolute = 2, .of_value = 0.3, .of_scene = 0}};
+    struct Columns {
+      std::vector<float> value = std::vector<float>(kCount), gradient = std::vector<float>(2 * kCount),
+                         one_sided = std::vector<float>(4 * kCount);
+      std::vector<std::uint32_t> evaluations = std::vector<std::uint32_t>(kCount);
+      std::vector<std::uint8_t> ambiguous = std::vector<std::uint8_t>(kCount);
+      bool operator==(const Columns&) const = default;
+      PointColumns from(std::size_t row) {
+        return {.value = &value[row],
+                .gradient = &gradient[2 * row],
+                .evaluations = &evaluations[row],
+                .ambiguous = &ambiguous[row],
+                .one_sided = &one_sided[4 * row]};
+      }
+    } together, alone;
+    ASSERT_TRUE(evaluate(tape, Points{rows.data(), kCount}, options, together.from(0)));
+    for (std::size_t i = 0; i < kCount; i += 200) {
+      ASSERT_TRUE(evaluate(tape, Points{&rows[2 * i], 200}, options, alone.from(i)));
+    }
+    EXPECT_TRUE(together == alone) << name(strategy);
+  }
+}
+
 TEST(OrderedPoints, HaveTheValuesAndGradientsOfTheFullTape) {
   for (const int dimension : {2, 3}) {
     const auto d = static_cast<std::size_t>(dimension);
@@ -138,7 +209,9 @@ TEST(SpatialOrder, IsAPermutationThatKeepsNeighboursTogether) {
   std::vector<float> rows(2 * 10000);
   for (float& x : rows) x = static_cast<float>(random.uniform(-5, 5));
   rows[17] = std::numeric_limits<float>::infinity();
-  const auto order = spatial_order({.dimension = 2}, rows.data(), 10000);
+  SpatialOrder spatial;
+  spatial.sort({.dimension = 2}, rows.data(), 10000, {});
+  const auto& order = spatial.rows();
   std::vector<int> seen(10000, 0);
   for (const std::uint32_t i : order) ++seen[i];
   EXPECT_EQ(seen, std::vector<int>(10000, 1));
