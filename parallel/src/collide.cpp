@@ -17,9 +17,10 @@
 namespace thalweg {
 namespace {
 
-/// Queries per tile. Verdicts take tens of nanoseconds each, and the lanes of a large tile stay full for longer; its
-/// columns still fit the second-level cache. Everything else takes long enough for small tiles to balance the load.
-constexpr std::size_t kVerdictTile = 4096;
+/// Queries per tile. Certified ones take some ten or hundred nanoseconds each, and the lanes of a large tile stay full
+/// for longer; its columns still fit the second-level cache. Everything else takes long enough for small tiles to
+/// balance the load.
+constexpr std::size_t kCertifiedTile = 8192;
 constexpr std::size_t kTile = 1024;
 constexpr std::size_t kLeastTile = 256;
 /// Tiles for each worker, at least, as long as they stay above the least size.
@@ -28,9 +29,9 @@ constexpr std::size_t kTilesPerWorker = 8;
 /// No result depends on it.
 std::size_t tile_for(const SolveLimits& limits, std::size_t count, const Execution& execution) {
   if (execution.tile != 0) return execution.tile;
-  const bool quick = limits.method == Method::certified && limits.goal == Goal::verdict;
+  const bool quick = limits.method == Method::certified;
   const std::size_t share = count / (kTilesPerWorker * worker_count(execution)) / kLeastTile * kLeastTile;
-  return std::clamp(share, kLeastTile, quick ? kVerdictTile : kTile);
+  return std::clamp(share, kLeastTile, quick ? kCertifiedTile : kTile);
 }
 
 /// Rows of one status. Counted in 32 bits, which the compiler does a whole vector at a time.
@@ -51,52 +52,6 @@ void count_statuses(std::span<const std::uint8_t> status, Summary& summary) {
   summary.by_status[4] += count_of(status, Status::bad_row);
 }
 
-/// A tile's own result columns, for rows that are answered in another order than the caller's.
-class ResultBuffer {
- public:
-  /// Room for `count` rows of every column that `wanted` has.
-  const CollideColumns& take(const CollideColumns& wanted, std::size_t count, int dimension) {
-    arena_.reset();
-    for_each_column(
-        dimension,
-        [&]<class T>(std::size_t width, T*& own, T* const& asked) {
-          own = asked == nullptr ? nullptr : arena_.take<T>(count * width);
-        },
-        columns_, wanted);
-    return columns_;
-  }
-  /// Asks for the memory of rows that will be written.
-  static void prefetch(std::span<const std::uint32_t> order, const CollideColumns& to, int dimension) {
-    for_each_column(
-        dimension,
-        [&]<class T>(std::size_t width, T* const& out) {
-          if (out == nullptr) return;
-          for (const std::uint32_t row : order) __builtin_prefetch(out + width * row, 1, 2);
-        },
-        to);
-  }
-  /// Row i goes to row order[i] of the caller's columns.
-  void scatter(std::span<const std::uint32_t> order, const CollideColumns& to, int dimension) const {
-    for_each_column(
-        dimension,
-        [&]<class T>(std::size_t width, T* const& own, T* const& out) {
-          if (out == nullptr) return;
-          if (width == 1) {
-            for (std::size_t i = 0; i < order.size(); ++i) out[order[i]] = own[i];
-          } else if (width == 2) {
-            for (std::size_t i = 0; i < order.size(); ++i) std::copy_n(own + 2 * i, 2, out + 2 * std::size_t{order[i]});
-          } else {
-            for (std::size_t i = 0; i < order.size(); ++i) std::copy_n(own + width * i, width, out + width * order[i]);
-          }
-        },
-        columns_, to);
-  }
-
- private:
-  Arena arena_;
-  CollideColumns columns_;
-};
-
 /// What one worker keeps from tile to tile, and from batch to batch.
 struct Worker {
   TileScratch scratch;
@@ -109,7 +64,7 @@ struct Worker {
 /// Where a search evaluates besides its queries.
 Surroundings surroundings_of(const SolveLimits& limits) {
   Surroundings around{.bounds = limits.method == Method::certified, .sizes = 0, .probe = {}};
-  if (limits.goal == Goal::deepest) around.sizes = limits.far_reaches;
+  if (limits.method == Method::certified) around.sizes = limits.far_reaches;
   for (const GradientRule& rule : {limits.gradient, limits.normals}) {
     if (rule.strategy == Gradient::autodiff) continue;
     around.probe.absolute = std::max(around.probe.absolute, rule.probe.absolute);

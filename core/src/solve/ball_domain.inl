@@ -22,6 +22,7 @@ class BallDomain {
  public:
   static constexpr size_t kChildren = size_t{1} << D;
   static constexpr int kAxes = D;
+  static constexpr size_t kWidth = D + 1;        ///< numbers of a row
   static constexpr size_t kCoordinates = D + 1;  ///< centre of the box from that of the ball, and half size; in radii
   static constexpr float kRoot[4] = {0, 0, D == 2 ? 1 : 0, 1};
   static constexpr size_t kEdgeColumns = D;

@@ -35,6 +35,7 @@
 #include "solve/far_points.inl"
 #include "solve/finish.h"
 #include "solve/first_wave.inl"
+#include "solve/lowest_points.inl"
 #include "solve/probes.inl"
 #include "solve/tile.h"
 
@@ -49,12 +50,12 @@ class Certifier {
   static constexpr size_t kCoordinates = Domain::kCoordinates;
 
   Certifier(const QueryTile& tile, TileScratch& scratch)
-      : tile_(tile), limits_(*tile.limits), scratch_(scratch), first_wave_(tile, domain_, state_) {
+      : tile_(tile), limits_(*tile.limits), scratch_(scratch), lowest_points_(tile, domain_, state_) {
     Arena& arena = scratch.arena;
     arena.reset();
     const size_t room = padded(tile.count);
-    state_ = QueryState::make(arena, tile.tape->dimension, tile.count);
-    domain_.take(arena, tile.count);
+    state_ = QueryState::make(arena, tile.tape->dimension, room);
+    domain_.take(arena, room);
     const size_t wave_room = kWaveCells + kChildren * kColumnPadding;
     wave_.take(arena, wave_room, kCoordinates, Domain::kEdgeColumns);
     open_.take(arena, wave_room, kCoordinates);
@@ -64,7 +65,7 @@ class Certifier {
     }
     probes_.take(arena, wave_room);
     far_points_.take(tile, domain_, state_, arena, wave_room);
-    first_wave_.take(arena, wave_, far_points_, wave_room);
+    lowest_points_.take(arena, wave_, far_points_, wave_room);
     progress_ = arena.take<Progress>(room);
     touched_ = arena.take<uint32_t>(std::max(room, wave_room) + kColumnPadding);
     hard_ = arena.take<uint32_t>(room);
@@ -80,8 +81,16 @@ class Certifier {
   }
 
   void run() {
-    domain_.load(tile_, state_);
-    begin_search(first_wave_.run(touched_, kernel_scratch_));
+    FirstWave<Domain> first_wave(tile_, scratch_);
+    QueryTile searched = tile_;
+    if (!wants_deepest()) {
+      searched.count = first_wave.run(kernel_scratch_);
+      searched.rows = first_wave.rows();
+      if (searched.count == 0) return;
+    }
+    domain_.load(searched, state_);
+    const uint32_t spent = wants_deepest() ? 0 : 1;
+    begin_search(lowest_points_.run(searched.count, spent, touched_, kernel_scratch_));
     while (refill()) {
       ++level_;
       bound_children(tile_, domain_, state_.slack, open_, wave_, Detail::gradients, kernel_scratch_);
@@ -92,12 +101,23 @@ class Certifier {
       compact();
     }
     for (size_t i = 0; i < hard_count_; ++i) {
-      decide_in_double(domain_.region(tile_, hard_[i]), limits_, state_, hard_[i], scratch_);
+      decide_in_double(domain_.region(searched, hard_[i]), limits_, state_, hard_[i], scratch_);
     }
-    tile_.kernels->finish(tile_, state_, kernel_scratch_, scratch_.arena);
+    finish(searched, first_wave.open());
   }
 
  private:
+  /// Writes the results of what was searched, which are all rows or those that wave 0 left open.
+  void finish(QueryTile searched, const uint32_t* rows) {
+    if (searched.count != tile_.count) {
+      searched.columns = scratch_.results.take(tile_.columns, searched.count, tile_.tape->dimension);
+    }
+    tile_.kernels->finish(searched, state_, kernel_scratch_, scratch_.arena);
+    if (searched.count != tile_.count) {
+      scratch_.results.scatter({rows, searched.count}, tile_.columns, tile_.tape->dimension);
+    }
+  }
+
   /// What one wave learns of a query; valid for the level that it names.
   struct Progress {
     uint32_t level;
@@ -381,7 +401,7 @@ class Certifier {
   size_t hard_count_ = 0;
   Probes<Domain> probes_;
   FarPoints<Domain> far_points_;
-  FirstWave<Domain> first_wave_;
+  LowestPoints<Domain> lowest_points_;
   // Per parent of the wave.
   float* threshold_ = nullptr;
   float* closed_lower_ = nullptr;

@@ -42,7 +42,7 @@ class DepthFirst {
   /// What a split takes, probe and far points included.
   static constexpr uint32_t kCost = kDeepest ? 2 * kChildren + 1 : kChildren;
   /// With less, the budget might end within the lanes or before the first wave after them.
-  static constexpr uint32_t kLeastBudget = 4 + kCost * (kMostSplits + kStackDepth);
+  static constexpr uint32_t kLeastBudget = 5 + kCost * (kMostSplits + kStackDepth);
 
   void take(Arena& arena, FarPoints<Domain>& far_points) {
     constexpr size_t kRoom = kLanes + kColumnPadding;

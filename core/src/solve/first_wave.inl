@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: The thalweg authors
 // SPDX-License-Identifier: MIT
 //
-// Wave 0: every query of a tile is one cell, all of them side by side, without gathers or lists. f at the centroids
-// decides most verdicts. For deepest points the gradients there lead to each query's lowest corner (of a ball: its
-// lowest point); value, enclosure and a far point from that corner close most queries before any is split.
-// Included once per SIMD target.
+// Wave 0 of verdicts: every query is one cell. Blocks of rows that stay in the first-level cache are loaded, evaluated
+// at their centroids and written to the result columns; the few rows that this does not decide are put side by side for
+// the search. Included once per SIMD target.
 #if defined(THALWEG_SOLVE_FIRST_WAVE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef THALWEG_SOLVE_FIRST_WAVE_INL
 #undef THALWEG_SOLVE_FIRST_WAVE_INL
@@ -14,169 +13,88 @@
 
 #include <algorithm>
 
-#include "solve/far_points.inl"
+#include "solve/plan.h"
 #include "solve/wave.inl"
 
 HWY_BEFORE_NAMESPACE();
 namespace thalweg {
 namespace HWY_NAMESPACE {
 
-/// Children that one wave may hold.
-inline constexpr size_t kWaveCells = 8192;
-/// The least that wave 0 takes where deepest points are asked for.
-inline constexpr uint32_t kLeastDeepestBudget = 3;
+/// A part of a slack as a float: it is a claim.
+inline float rounded_up(double x) { return static_cast<float>(x * (1 + 1e-6)); }
 
 template <class Domain>
 class FirstWave {
  public:
-  FirstWave(const QueryTile& tile, const Domain& domain, QueryState& state)
-      : tile_(tile), domain_(domain), state_(state), deepest_(tile.limits->goal == Goal::deepest) {}
-
-  void take(Arena& arena, WaveColumns& wave, FarPoints<Domain>& far_points, size_t wave_room) {
-    wave_ = &wave;
-    far_points_ = &far_points;
-    if (!deepest_) return;
-    for (int axis = 0; axis < Domain::kAxes; ++axis) gradient_[axis] = arena.take<float>(padded(tile_.count));
-    limit_ = arena.take<float>(wave_room);
-    for (uint32_t** column : {&query_, &asked_}) *column = arena.take<uint32_t>(wave_room);
+  FirstWave(const QueryTile& tile, TileScratch& scratch) : tile_(tile), scratch_(scratch) {
+    state_ = QueryState::make(scratch.arena, tile.tape->dimension, kBlockRows);
+    domain_.take(scratch.arena, kBlockRows);
+    open_ = scratch.arena.take<uint32_t>(padded(tile.count) + kColumnPadding);
+    rows_ = scratch.arena.take<float>(padded(tile.count) * Domain::kWidth);
   }
 
-  /// Lists the queries that stay open, and returns how many.
-  size_t run(uint32_t* open, float* scratch) {
-    const size_t count = bound_queries(open, scratch);
-    if (!deepest_ || tile_.limits->budget < kLeastDeepestBudget) return count;
-    return try_lowest_points(open, scratch);
+  /// Answers what it can; returns how many queries stay open.
+  size_t run(float* scratch) {
+    size_t open_count = 0;
+    for (size_t first = 0; first < tile_.count; first += kBlockRows) {
+      QueryTile block = tile_;
+      block.count = std::min(kBlockRows, tile_.count - first);
+      block.rows += first * Domain::kWidth;
+      block.columns = columns_from(tile_.columns, first, tile_.tape->dimension);
+      domain_.load(block, state_);
+      tile_.kernels->value(*tile_.tape, state_.point, block.count, state_.value, scratch);
+      open_count = bound(first, block.count, open_count);
+      scratch_.block_arena.reset();
+      tile_.kernels->finish(block, state_, scratch, scratch_.block_arena);
+    }
+    for (size_t i = 0; i < open_count; ++i) {
+      std::copy_n(tile_.rows + open_[i] * Domain::kWidth, Domain::kWidth, rows_ + i * Domain::kWidth);
+    }
+    return open_count;
   }
+
+  /// The queries that stay open: which rows of the tile they are, and those rows side by side.
+  [[nodiscard]] const uint32_t* open() const { return open_; }
+  [[nodiscard]] const float* rows() const { return rows_; }
 
  private:
-  /// Queries of one block: as many as a wave holds.
-  struct Run {
-    size_t first, count;
-  };
-
-  size_t bound_queries(uint32_t* open, float* scratch) {
-    const size_t n = tile_.count;
+  /// What the centroids prove.
+  size_t bound(size_t first, size_t count, size_t open_count) {
     const F32 d;
     const hn::RebindToUnsigned<F32> du;
-    // Rounded up: the slack is a claim.
-    const auto slack_a = hn::Set(d, static_cast<float>(tile_.limits->slack.a * (1 + 1e-6)));
-    const auto slack_b = hn::Set(d, static_cast<float>(tile_.limits->slack.b * (1 + 1e-6)));
-    if (deepest_) {
-      tile_.kernels->gradient(*tile_.tape, state_.point, n, state_.value, gradient_, scratch);
-    } else {
-      tile_.kernels->value(*tile_.tape, state_.point, n, state_.value, scratch);
-    }
+    const QueryState& s = state_;
+    const auto slack_a = hn::Set(d, rounded_up(tile_.limits->slack.a));
+    const auto slack_b = hn::Set(d, rounded_up(tile_.limits->slack.b));
     const auto lipschitz = hn::Set(d, static_cast<float>(tile_.tape->facts.lipschitz));
-    const auto tolerance = hn::Set(d, deepest_ ? static_cast<float>(tile_.limits->tolerance) : kInfinite);
     const auto one = hn::Set(d, 1.0F);
-    size_t open_count = 0;
-    for (size_t i = 0; i < n; i += hn::Lanes(d)) {
+    for (size_t i = 0; i < count; i += hn::Lanes(d)) {
       const auto slack = hn::MulAdd(slack_b, hn::LoadU(d, domain_.largest() + i), slack_a);
-      const auto f = hn::LoadU(d, state_.value + i);
+      const auto f = hn::LoadU(d, s.value + i);
       const auto lower = hn::Sub(hn::NegMulAdd(lipschitz, hn::LoadU(d, domain_.reach() + i), f), slack);
       const auto witness = hn::Lt(f, hn::Neg(slack));
-      const auto known = hn::Or(witness, hn::Gt(lower, hn::Zero(d)));
-      const auto closed = hn::And(known, hn::Ge(lower, hn::Sub(f, tolerance)));
-      const auto bad = hn::Gt(hn::LoadU(d, state_.is_bad + i), hn::Zero(d));
-      const auto here = hn::FirstN(d, HWY_MIN(n - i, hn::Lanes(d)));
-      const auto stays = hn::AndNot(hn::Or(closed, bad), here);
-      hn::StoreU(slack, d, state_.slack + i);
-      hn::StoreU(lower, d, state_.lower + i);
-      hn::StoreU(hn::IfThenElseZero(witness, one), d, state_.witness + i);
-      hn::StoreU(hn::IfThenElse(stays, hn::Zero(d), one), d, state_.converged + i);
-      hn::StoreU(hn::Set(du, 1), du, state_.evaluations + i);
-      hn::StoreU(hn::Zero(du), du, state_.iterations + i);
-      const auto index = hn::Iota(du, static_cast<uint32_t>(i));
-      hn::StoreU(hn::Compress(index, hn::RebindMask(du, stays)), du, open + open_count);
-      open_count += hn::CountTrue(d, stays);
-    }
-    return open_count;
-  }
-
-  size_t try_lowest_points(uint32_t* open, float* scratch) {
-    size_t open_count = 0;
-    for (size_t first = 0; first < tile_.count; first += kWaveCells) {
-      const size_t count = std::min(kWaveCells, tile_.count - first);
-      domain_.aim(first, count, gradient_, *wave_);
-      wave_->stride = count;
-      if constexpr (Domain::kIsBall) {
-        tile_.kernels->value(*tile_.tape, wave_->centre, count, wave_->value, scratch);
-        std::copy_n(state_.lower + first, count, wave_->lower);
-      } else {
-        evaluate_cells<Domain>(tile_, *wave_, count, Detail::gradients, scratch);
-      }
-      take_lowest_points({first, count});
-      if constexpr (!Domain::kIsBall) {
-        far_points_->raise_bounds({query_, limit_, asked_, count, 1}, *wave_, scratch);
-        for (size_t i = 0; i < count; ++i) state_.evaluations[first + i] += asked_[i];
-      }
-      open_count = settle_queries({first, count}, open, open_count);
-    }
-    return open_count;
-  }
-
-  /// The points just evaluated, as incumbents; then what is to be proven, and what is so far. Queries that are answered
-  /// already have nothing left to prove.
-  void take_lowest_points(Run run) {
-    const F32 d;
-    const hn::RebindToUnsigned<F32> du;
-    const auto one = hn::Set(d, 1.0F);
-    for (size_t i = 0; i < run.count; i += hn::Lanes(d)) {
-      const size_t q = run.first + i;
-      const auto is_open = hn::Eq(hn::LoadU(d, state_.converged + q), hn::Zero(d));
-      const auto f = hn::LoadU(d, wave_->value + i);
-      const auto slack = hn::LoadU(d, state_.slack + q);
-      const auto lower = hn::And(is_open, hn::Lt(f, hn::LoadU(d, state_.value + q)));
-      hn::BlendedStore(f, lower, d, state_.value + q);
-      for (size_t axis = 0; axis < Domain::kAxes; ++axis) {
-        hn::BlendedStore(hn::LoadU(d, wave_->centre[axis] + i), lower, d, state_.point[axis] + q);
-      }
-      for (size_t k = 0; k < 2; ++k) {
-        hn::BlendedStore(hn::LoadU(d, wave_->at[k] + i), lower, d, state_.barycentric[k] + q);
-      }
-      hn::BlendedStore(one, hn::And(lower, hn::Lt(f, hn::Neg(slack))), d, state_.witness + q);
-      const auto witness = hn::Gt(hn::LoadU(d, state_.witness + q), hn::Zero(d));
-      const auto limit =
-          hn::Sub(hn::LoadU(d, state_.value + q), hn::Set(d, static_cast<float>(tile_.limits->tolerance)));
-      const auto proves = hn::IfThenElse(witness, limit, hn::Max(limit, hn::Zero(d)));
-      hn::StoreU(hn::IfThenElse(is_open, proves, hn::Set(d, -kInfinite)), d, limit_ + i);
-      const auto bound =
-          Domain::kIsBall ? hn::LoadU(d, wave_->lower + i) : hn::Sub(hn::LoadU(d, wave_->lower + i), slack);
-      hn::StoreU(hn::Max(bound, hn::LoadU(d, state_.lower + q)), d, wave_->lower + i);
-      hn::StoreU(hn::Iota(du, static_cast<uint32_t>(q)), du, query_ + i);
-      const auto evaluations = hn::LoadU(du, state_.evaluations + q);
-      hn::BlendedStore(hn::Add(evaluations, hn::Set(du, 1)), hn::RebindMask(du, is_open), du, state_.evaluations + q);
-    }
-  }
-
-  size_t settle_queries(Run run, uint32_t* list, size_t open_count) {
-    const F32 d;
-    const hn::RebindToUnsigned<F32> du;
-    for (size_t i = 0; i < run.count; i += hn::Lanes(d)) {
-      const size_t q = run.first + i;
-      const auto lower = hn::LoadU(d, wave_->lower + i);
-      const auto is_good = hn::Eq(hn::LoadU(d, state_.is_bad + q), hn::Zero(d));
-      const auto here = hn::And(is_good, hn::FirstN(d, HWY_MIN(run.count - i, hn::Lanes(d))));
-      const auto closed = hn::Gt(lower, hn::LoadU(d, limit_ + i));
-      hn::StoreU(lower, d, state_.lower + q);
-      hn::BlendedStore(hn::Set(d, 1.0F), closed, d, state_.converged + q);
-      const auto open = hn::RebindMask(du, hn::AndNot(closed, here));
-      hn::StoreU(hn::Compress(hn::Iota(du, static_cast<uint32_t>(q)), open), du, list + open_count);
-      open_count += hn::CountTrue(du, open);
+      const auto bad = hn::Gt(hn::LoadU(d, s.is_bad + i), hn::Zero(d));
+      const auto closed = hn::Or(hn::Or(bad, witness), hn::Gt(lower, hn::Zero(d)));
+      hn::StoreU(slack, d, s.slack + i);
+      hn::StoreU(lower, d, s.lower + i);
+      hn::StoreU(hn::IfThenElseZero(witness, one), d, s.witness + i);
+      hn::StoreU(hn::IfThenElseZero(closed, one), d, s.converged + i);
+      hn::StoreU(hn::Set(du, 1), du, s.evaluations + i);
+      hn::StoreU(hn::Zero(du), du, s.iterations + i);
+      const auto here = hn::FirstN(d, HWY_MIN(count - i, hn::Lanes(d)));
+      const auto stays = hn::RebindMask(du, hn::AndNot(closed, here));
+      const auto row = hn::Iota(du, static_cast<uint32_t>(first + i));
+      hn::StoreU(hn::Compress(row, stays), du, open_ + open_count);
+      open_count += hn::CountTrue(du, stays);
     }
     return open_count;
   }
 
   const QueryTile& tile_;
-  const Domain& domain_;
-  QueryState& state_;
-  const bool deepest_;
-  WaveColumns* wave_ = nullptr;
-  FarPoints<Domain>* far_points_ = nullptr;
-  float* gradient_[3] = {};    ///< per query: at its centroid
-  float* limit_ = nullptr;     ///< per query of a block: what is to be proven
-  uint32_t* query_ = nullptr;  ///< per query of a block: itself
-  uint32_t* asked_ = nullptr;  ///< per query of a block: far points
+  TileScratch& scratch_;
+  Domain domain_;
+  QueryState state_;
+  uint32_t* open_ = nullptr;
+  float* rows_ = nullptr;
 };
 
 }  // namespace HWY_NAMESPACE

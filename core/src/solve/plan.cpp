@@ -44,7 +44,7 @@ Result<SolveLimits> with_starts(SolveLimits limits, const CollideOptions& option
 }
 
 /// Further out a far point closes hardly more cells (measured: 16 reaches leave 2 % more evaluations than 64), and all
-/// that lies on the way must be in the region of a shortened tape.
+/// that lies on the way must be in the region of a shortened tape. Verdicts gain less from them than short tapes do.
 constexpr float kFarReaches = 16;
 constexpr float kFarReachesOfLongTapes = 4;
 
@@ -107,7 +107,8 @@ Result<SolveLimits> plan(const Tape& tape, QueryKind kind, const CollideOptions&
   limits.budget = options.budget;
   limits.tolerance = options.tolerance > 0 ? options.tolerance : default_tolerance(tape);
   limits.slack = tape.search_slack;
-  limits.far_reaches = tape.instructions.size() < kLongTape ? kFarReaches : kFarReachesOfLongTapes;
+  const bool is_long = tape.instructions.size() >= kLongTape;
+  limits.far_reaches = !is_long ? kFarReaches : options.goal == Goal::deepest ? kFarReachesOfLongTapes : 0;
   limits.slack64 = {.a = limits.slack.a * Twin::kSlackRatio, .b = limits.slack.b * Twin::kSlackRatio};
   limits.feature = options.feature > 0 ? options.feature : default_feature(tape);
   auto ruled = with_rules(limits, options, row);

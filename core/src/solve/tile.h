@@ -10,6 +10,7 @@
 #include "kernels/kernels.h"
 #include "kernels/twin.h"
 #include "solve/arena.h"
+#include "solve/columns.h"
 #include "thalweg/query.h"
 
 namespace thalweg {
@@ -33,8 +34,8 @@ struct SolveLimits {
   double margin = 0;
   double feature = 0;
   float far_reaches = 0;  ///< far points (far_points.inl) are at most so many reaches of the query away
-  Affine slack;    ///< of a float32 evaluation in a search: rounding of values, centres and bounds
-  Affine slack64;  ///< the same in double
+  Affine slack;           ///< of a float32 evaluation in a search: rounding of values, centres and bounds
+  Affine slack64;         ///< the same in double
 };
 
 struct QueryTile {
@@ -61,6 +62,8 @@ struct TileScratch {
   TileScratch() = default;
   explicit TileScratch(const Tape& tape) : twin(tape) {}
   Arena arena;
+  Arena block_arena;     ///< of the results of one block of rows
+  ResultBuffer results;  ///< of rows whose results do not lie side by side
   Twin twin;
   std::vector<WaitingCell> waiting;  ///< cells that the current wave cannot hold
   struct HeapCell {

@@ -22,6 +22,7 @@ class TriangleDomain {
  public:
   static constexpr size_t kChildren = 2;
   static constexpr int kAxes = D;
+  static constexpr size_t kWidth = 3 * D;    ///< numbers of a row
   static constexpr size_t kCoordinates = 6;  ///< u0 v0 u1 v1 u2 v2
   static constexpr float kRoot[kCoordinates] = {0, 0, 1, 0, 0, 1};
   static constexpr size_t kEdgeColumns = 3 * D;
