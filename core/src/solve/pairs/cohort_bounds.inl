@@ -53,17 +53,26 @@ HWY_INLINE V32 far_distance(const CohortRow<D>& row, const float* far_table, con
   return hn::Min(of_region<D>(row, far_table, cells, i), hn::Mul(most, hn::LoadU(d, cells.size + i)));
 }
 
-/// aim() of bounds.inl for a span.
+/// One field's columns in a pass: points and gradients in its own frame; far points and unit gradients to be. What is
+/// read is not written, as a vector reaches into the next span.
 template <int D>
-void aim_span(const CohortRow<D>& row, Span span, const float* far_table, PairCells cells, float* const* centres,
-              float* const* gradients, float* const* far_points) {
-  const F32 d;
-  // Copies: stores of vectors may write anything but these.
-  float *centre[D], *gradient[D], *far[D];
-  std::copy_n(centres, D, centre);
-  std::copy_n(gradients, D, gradient);
-  std::copy_n(far_points, D, far);
-  for (size_t i = span.begin; i < span.end; i += hn::Lanes(d)) {
+struct AimedField {
+  const float* far_table;
+  const float *at[D], *gradient[D];
+  float *far[D], *unit[D];
+
+  AimedField(const float* table, float* const* points, float* const* gradients, float* const* far_points,
+             float* const* units)
+      : far_table(table) {
+    std::copy_n(points, D, at);
+    std::copy_n(gradients, D, gradient);
+    std::copy_n(far_points, D, far);
+    std::copy_n(units, D, unit);
+  }
+
+  /// aim() of bounds.inl for the cells from entry i on.
+  HWY_INLINE void aim(const CohortRow<D>& row, const PairCells& cells, size_t i) const {
+    const F32 d;
     V32 g[D];
     for (int axis = 0; axis < D; ++axis) g[axis] = hn::LoadU(d, gradient[axis] + i);
     const auto square = square_of<D>(g);
@@ -72,13 +81,13 @@ void aim_span(const CohortRow<D>& row, Span span, const float* far_table, PairCe
     const auto distance = far_distance<D>(row, far_table, cells, i);
     for (int axis = 0; axis < D; ++axis) {
       const auto u = hn::Mul(g[axis], inverse);
-      hn::StoreU(u, d, gradient[axis] + i);
-      hn::StoreU(hn::MulAdd(distance, u, hn::LoadU(d, centre[axis] + i)), d, far[axis] + i);
+      hn::StoreU(u, d, unit[axis] + i);
+      hn::StoreU(hn::MulAdd(distance, u, hn::LoadU(d, at[axis] + i)), d, far[axis] + i);
     }
   }
-}
+};
 
-/// One field's linear bound at entry i; `gradient` holds what aim_span() left there, or of a convex field the gradient.
+/// One field's linear bound at entry i; `gradient` holds what aim() left there, or of a convex field the gradient.
 template <int D>
 HWY_INLINE LinearBound<D> linear_bound(const CohortRow<D>& row, bool convex, float lipschitz, const float* far_table,
                                        const PairCells& cells, size_t i, float* const* gradient, const float* value,
@@ -139,13 +148,16 @@ void bound_span(const BoundPass<D>& pass, CohortRow<D>& row, PairCells cells, Sp
   // Copies: stores of vectors may write anything but these.
   const PairPoints at = *pass.points, far = *pass.far;
   ChildBounds<D> bounds = out;
+  const bool convex_a = pass.fields->a->facts.convex, convex_b = pass.fields->b->facts.convex;
+  float* const* units_a = convex_a ? at.gradient_a : far.gradient_a;
+  float* const* units_b = convex_b ? at.gradient_b : far.gradient_b;
   const auto slack = hn::Set(d, row.frame.slack);
   auto closed_lower = hn::Set(d, row.closed_lower);
   for (size_t i = span.begin; i < span.end; i += hn::Lanes(d)) {
-    const auto a = linear_bound<D>(row, pass.fields->a->facts.convex, row.frame.lipschitz_a, row.far_a, cells, i,
-                                   at.gradient_a, at.value_a, far.value_a);
-    auto b = linear_bound<D>(row, pass.fields->b->facts.convex, row.frame.lipschitz_b, row.far_b, cells, i,
-                             at.gradient_b, at.value_b, far.value_b);
+    const auto a =
+        linear_bound<D>(row, convex_a, row.frame.lipschitz_a, row.far_a, cells, i, units_a, at.value_a, far.value_a);
+    auto b =
+        linear_bound<D>(row, convex_b, row.frame.lipschitz_b, row.far_b, cells, i, units_b, at.value_b, far.value_b);
     V32 turned[D], quarter[D];
     row.frame.turn_to_a(b.slope, turned);
     std::copy_n(turned, D, b.slope);

@@ -57,8 +57,12 @@ class CohortRefiner : protected CohortExplorer<D> {
       row.set_far(row.reach * wave_.size[span.begin]);
       row.far_a[kDoubtful] = row.far_a[0];
       row.far_b[kDoubtful] = row.far_b[0];
-      if (bends_a) aim_span<D>(row, span, row.far_a, wave_, points_.a, points_.gradient_a, far_.a);
-      if (bends_b) aim_span<D>(row, span, row.far_b, wave_, points_.b, points_.gradient_b, far_.b);
+      const AimedField<D> a(row.far_a, points_.a, points_.gradient_a, far_.a, far_.gradient_a);
+      const AimedField<D> b(row.far_b, points_.b, points_.gradient_b, far_.b, far_.gradient_b);
+      for (size_t i = span.begin; i < span.end; i += hn::Lanes(F32())) {
+        if (bends_a) a.aim(row, wave_, i);
+        if (bends_b) b.aim(row, wave_, i);
+      }
       if (bends_a || bends_b) row.count(span.end - span.begin);
     }
     if (bends_a) kernels.value(*fields_.a, far_.a, count, far_.value_a, fields_.scratch_a);

@@ -20,7 +20,7 @@ HWY_BEFORE_NAMESPACE();
 namespace thalweg {
 namespace HWY_NAMESPACE {
 
-inline constexpr size_t kCohortRows = 16;
+inline constexpr size_t kCohortRows = 32;
 /// A row with more regions, pieces, or cells in a wave is searched alone.
 inline constexpr size_t kMostRegions = 16;
 /// The number of pieces that no region is known to hold.
@@ -129,14 +129,18 @@ HWY_INLINE void place_in_b(const PairFrame<D>& frame, float* const* a, float* co
 template <int D>
 HWY_INLINE void place_centres(const CohortRow<D>& row, PairCells cells, Span span, PairPoints points) {
   const F32 d;
-  for (int axis = 0; axis < D; ++axis) {
-    const auto half = hn::Set(d, row.half[axis]);
-    const auto origin = hn::Set(d, row.frame.origin[axis]);
-    for (size_t i = span.begin; i < span.end; i += hn::Lanes(d)) {
-      hn::StoreU(hn::MulAdd(hn::LoadU(d, cells.at[axis] + i), half, origin), d, points.a[axis] + i);
+  for (size_t i = span.begin; i < span.end; i += hn::Lanes(d)) {
+    V32 p[D], q[D];
+    for (int axis = 0; axis < D; ++axis) {
+      const auto half = hn::Set(d, row.half[axis]), origin = hn::Set(d, row.frame.origin[axis]);
+      p[axis] = hn::MulAdd(hn::LoadU(d, cells.at[axis] + i), half, origin);
+    }
+    row.frame.to_b(p, q);
+    for (int axis = 0; axis < D; ++axis) {
+      hn::StoreU(p[axis], d, points.a[axis] + i);
+      hn::StoreU(q[axis], d, points.b[axis] + i);
     }
   }
-  place_in_b<D>(row.frame, points.a, points.b, span.begin, span.end);
 }
 
 /// The index of the least of max(a, b) in [begin, end); of equal ones the first.

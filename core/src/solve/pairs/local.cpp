@@ -22,8 +22,8 @@ constexpr double kThesisStep = 1.0 / 64;
 /// Steps shorter than this part of the diagonal stop it.
 constexpr double kThesisStop = 1e-5;
 
-// MuJoCo's line search.
-constexpr float kFirstStep = 2;
+// MuJoCo's line search, whose step of 2 is halved before the first trial.
+constexpr float kFirstStep = 1;
 constexpr float kLastStep = 1e-4F;
 constexpr float kArmijo = 0.1F;
 
