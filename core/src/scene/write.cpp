@@ -10,19 +10,19 @@
 namespace thalweg {
 namespace {
 
-using ordered = nlohmann::ordered_json;
+using Ordered = nlohmann::ordered_json;
 
 std::string_view nth_choice(std::string_view choices, std::size_t n) {
   for (; n > 0; --n) choices.remove_prefix(choices.find('|') + 1);
   return choices.substr(0, choices.find('|'));
 }
 
-ordered parameter_json(const OpParameter& parameter, std::span<const double> numbers) {
+Ordered parameter_json(const OpParameter& parameter, std::span<const double> numbers) {
   if (parameter.quantity == Quantity::choice) {
     return std::string(nth_choice(parameter.choices, static_cast<std::size_t>(numbers[0])));
   }
   if (parameter.arity == 1) return numbers[0];
-  ordered array = ordered::array();
+  Ordered array = Ordered::array();
   if (parameter.arity == 0) {
     for (std::size_t i = 0; i < numbers.size(); i += 2) array.push_back({numbers[i], numbers[i + 1]});
   } else {
@@ -31,9 +31,9 @@ ordered parameter_json(const OpParameter& parameter, std::span<const double> num
   return array;
 }
 
-ordered node_json(const Shape& shape) {
+Ordered node_json(const Shape& shape) {
   const OpRow& row = op_table()[static_cast<std::size_t>(shape.op_index())];
-  ordered node;
+  Ordered node;
   node["op"] = std::string(row.name);
   auto numbers = shape.parameters();
   for (const OpParameter& parameter : row.parameters) {
@@ -42,7 +42,7 @@ ordered node_json(const Shape& shape) {
     numbers = numbers.subspan(count);
   }
   if (row.kind == OpKind::combine) {
-    node["of"] = ordered::array();
+    node["of"] = Ordered::array();
     for (const Shape& operand : shape.operands()) node["of"].push_back(node_json(operand));
   } else if (row.kind != OpKind::primitive) {
     node["of"] = node_json(shape.operands()[0]);
@@ -50,18 +50,18 @@ ordered node_json(const Shape& shape) {
   return node;
 }
 
-ordered number_schema(const OpParameter& parameter) {
-  ordered schema;
+Ordered number_schema(const OpParameter& parameter) {
+  Ordered schema;
   schema["type"] = parameter.quantity == Quantity::count ? "integer" : "number";
   schema["minimum"] = parameter.least;
   schema["maximum"] = parameter.most;
   return schema;
 }
 
-ordered parameter_schema(const OpParameter& parameter) {
-  ordered schema;
+Ordered parameter_schema(const OpParameter& parameter) {
+  Ordered schema;
   if (parameter.quantity == Quantity::choice) {
-    schema["enum"] = ordered::array();
+    schema["enum"] = Ordered::array();
     std::string_view rest = parameter.choices;
     for (bool more = true; more;) {
       schema["enum"].push_back(std::string(rest.substr(0, rest.find('|'))));
@@ -72,7 +72,7 @@ ordered parameter_schema(const OpParameter& parameter) {
     schema = number_schema(parameter);
   } else {
     const int arity = parameter.arity == 0 ? 2 : parameter.arity;
-    ordered point = {{"type", "array"}, {"items", number_schema(parameter)}, {"minItems", arity}, {"maxItems", arity}};
+    Ordered point = {{"type", "array"}, {"items", number_schema(parameter)}, {"minItems", arity}, {"maxItems", arity}};
     schema = point;
     if (parameter.arity == 0) schema = {{"type", "array"}, {"items", point}, {"minItems", 3}};
   }
@@ -80,16 +80,16 @@ ordered parameter_schema(const OpParameter& parameter) {
   return schema;
 }
 
-ordered row_schema(const OpRow& row) {
-  ordered properties;
-  ordered required = {"op"};
+Ordered row_schema(const OpRow& row) {
+  Ordered properties;
+  Ordered required = {"op"};
   properties["op"] = {{"const", std::string(row.name)}};
   for (const OpParameter& parameter : row.parameters) {
     if (parameter.implicit) continue;
     properties[std::string(parameter.name)] = parameter_schema(parameter);
     if (!parameter.optional) required.push_back(std::string(parameter.name));
   }
-  const ordered node = {{"$ref", "#/$defs/node"}};
+  const Ordered node = {{"$ref", "#/$defs/node"}};
   if (row.kind == OpKind::combine) {
     properties["of"] = {{"anyOf", {node, {{"type", "array"}, {"items", node}, {"minItems", 1}}}}};
   } else if (row.kind != OpKind::primitive) {
@@ -104,18 +104,18 @@ ordered row_schema(const OpRow& row) {
 std::string Shape::to_json() const { return node_json(*this).dump(); }
 
 std::string scene_text(const Shape& shape) {
-  const ordered scene = {{"thalweg", 1}, {"dimension", shape.dimension()}, {"shape", node_json(shape)}};
+  const Ordered scene = {{"thalweg", 1}, {"dimension", shape.dimension()}, {"shape", node_json(shape)}};
   return scene.dump(2) + "\n";
 }
 
 std::string scene_schema() {
-  ordered nodes = ordered::array();
+  Ordered nodes = Ordered::array();
   for (const OpRow& row : op_table()) nodes.push_back(row_schema(row));
   nodes.push_back({{"type", "object"},
                    {"properties", {{"op", {{"const", "ref"}}}, {"name", {{"type", "string"}}}}},
                    {"required", {"op", "name"}},
                    {"additionalProperties", false}});
-  ordered schema;
+  Ordered schema;
   schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
   schema["title"] = "thalweg scene";
   schema["type"] = "object";

@@ -120,7 +120,7 @@ class TouchingCells {
   };
 
   void run_over_rows(Arena& arena) {
-    const auto rows = static_cast<size_t>((rows_[0] + 2) * (rows_[1] + 2));
+    const auto rows = static_cast<size_t>(rows_[0] + 2) * static_cast<size_t>(rows_[1] + 2);
     bits_ = arena.take<uint64_t>(rows);
     first_run_ = arena.take<uint32_t>(rows);
     std::fill_n(bits_, rows, 0);

@@ -132,7 +132,7 @@ class LocalSearch {
     return count;
   }
 
-  void by_strategy(const Tape& tape, const GradientColumns& columns, float* scratch) {
+  void by_strategy(const Tape& tape, const GradientColumns& columns, float* scratch) const {
     std::fill_n(columns.evaluations, columns.count, 0);
     const GradientRule rule = rule_of(tape, strategy_of(*tile_.options), tile_.options->gradient_offset);
     evaluate_gradient(rule, tape, *tile_.kernels, columns, scratch);
