@@ -15,7 +15,7 @@
 namespace thalweg {
 
 /// One step of a tape.
-///   primitive  acc = field of op at position[operand]
+///   primitive  acc = field of op at position[operand], moved and, when kTurned is set, turned
 ///   combine    acc = op(register[operand], acc), the other way round when kSwapped is set
 ///   map        acc = op(acc)
 ///   load       acc = register[operand]
@@ -36,6 +36,9 @@ struct Instruction {
   static constexpr std::uint16_t kSupport = 1;  ///< convex primitive with a support function, reached rigidly
   static constexpr std::uint16_t kDepth = 2;    ///< primitive of exact inside, reached rigidly
   static constexpr std::uint16_t kSwapped = 4;  ///< the accumulator is the first operand
+  static constexpr std::uint16_t kTurned =
+      8;  ///< a primitive's constants begin with those of `rigid`, not a translation
+  static constexpr std::uint16_t kWarped = 16;  ///< a primitive at a position other than the query point
 };
 static_assert(sizeof(Instruction) == 16);
 

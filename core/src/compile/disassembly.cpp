@@ -36,7 +36,7 @@ std::string action(const Instruction& in) {
   const OpRow& row = op_table()[in.op];
   switch (row.kind) {
     case OpKind::primitive:
-      return joined("acc = ", row.name, "(p", operand, ")");
+      return joined("acc = ", row.name, (in.flags & Instruction::kTurned) != 0 ? "(turned p" : "(p", operand, ")");
     case OpKind::combine:
       return (in.flags & Instruction::kSwapped) != 0 ? joined("acc = ", row.name, "(acc, r", operand, ")")
                                                      : joined("acc = ", row.name, "(r", operand, ", acc)");

@@ -208,10 +208,7 @@ class Flattener {
     Placed placed{.numbers = scaled_numbers(shape, at.scale), .at = at, .extent = 0};
     if (entry.absorbs_rotation) absorb_rotation(entry.row, placed);
     placed.extent = extent(entry.row, placed.numbers);
-    if (rotates(placed.at)) {
-      position = rigid(placed.at, position);
-      placed.at = {};
-    }
+    const bool turned = rotates(placed.at);
     const auto dimension = static_cast<std::size_t>(entry.row.dimension);
     const Position& where = ssa_.positions[static_cast<std::size_t>(position)];
     Value value{.op = shape.op_index(),
@@ -221,15 +218,23 @@ class Flattener {
                 .flags = 0,
                 .constants = {},
                 .size = {},
-                .error = {}};
+                .error = where.error};
     entry.derive(placed.numbers, value.constants);
-    value.constants.insert(value.constants.begin(), placed.at.translation.begin(),
-                           placed.at.translation.begin() + static_cast<std::ptrdiff_t>(dimension));
+    std::vector<double> frame(placed.at.translation.begin(),
+                              placed.at.translation.begin() + static_cast<std::ptrdiff_t>(dimension));
+    if (turned) entry_of(ops::rigid_op(ssa_.dimension)).derive_placement(placed.at, frame);
+    value.constants.insert(value.constants.begin(), frame.begin(), frame.end());
     const ops::PrimitiveFacts facts = entry.primitive_facts(shape.parameters());
+    if (position != 0) value.flags |= Instruction::kWarped;
     if (where.rigid && facts.convex && entry.has_support) value.flags |= Instruction::kSupport;
     if (where.rigid && facts.inside == Exactness::exact) value.flags |= Instruction::kDepth;
-    value.size = plus(where.reach, {norm(placed.at.translation) + placed.extent, 0});
-    value.error = plus(plus(times(entry.row.rounding * kEps, value.size), where.error), {kUnderflow, 0});
+    const Affine reach = plus(where.reach, {norm(placed.at.translation), 0});
+    if (turned) {
+      value.flags |= Instruction::kTurned;
+      value.error = plus(value.error, times(entry_of(ops::rigid_op(ssa_.dimension)).row.rounding * kEps, reach));
+    }
+    value.size = plus(reach, {placed.extent, 0});
+    value.error = plus(plus(times(entry.row.rounding * kEps, value.size), value.error), {kUnderflow, 0});
     return add(std::move(value));
   }
 
@@ -310,7 +315,7 @@ class Flattener {
   }
 
   int add(Value value) {
-    auto key = std::tuple(value.op, value.a, value.b, value.position, value.constants);
+    auto key = std::tuple(value.op, value.a, value.b, value.position, value.flags, value.constants);
     const auto [found, is_new] = value_of_.try_emplace(std::move(key), static_cast<int>(ssa_.values.size()));
     if (is_new) ssa_.values.push_back(std::move(value));
     return found->second;
@@ -319,7 +324,7 @@ class Flattener {
   Ssa ssa_;
   std::map<std::tuple<const void*, std::array<double, 13>, int>, int> walked_;
   std::map<std::tuple<int, int, std::vector<double>>, int> position_of_;
-  std::map<std::tuple<int, int, int, int, std::vector<double>>, int> value_of_;
+  std::map<std::tuple<int, int, int, int, std::uint16_t, std::vector<double>>, int> value_of_;
 };
 
 }  // namespace

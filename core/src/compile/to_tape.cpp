@@ -5,8 +5,6 @@
 // Ullman 1970), so that few registers are live; registers and positions are then given out by a linear scan, lowest
 // free number first.
 #include <algorithm>
-#include <cmath>
-#include <iterator>
 #include <queue>
 
 #include "compile/ssa.h"
@@ -17,9 +15,6 @@ namespace {
 using Free = std::priority_queue<std::uint16_t, std::vector<std::uint16_t>, std::greater<>>;
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
-/// The only constants near the end of float32's range are 1 / length^2 of edges below 2^-62, which are points to it.
-float in_float32(double constant) { return std::fabs(constant) > 0x1p124 ? 0.0F : static_cast<float>(constant); }
 
 /// Values in the order in which they are computed.
 std::vector<int> computed_order(const Ssa& ssa) {
@@ -98,7 +93,7 @@ class Writer {
     tape_.slack = ssa_.values[at(ssa_.root)].error;
     // Half as much again for the arithmetic of bounds, and 16 eps L m for the rounding of centres and reaches.
     tape_.search_slack = {.a = 1.5 * tape_.slack.a, .b = 1.5 * tape_.slack.b + 16 * 0x1p-24 * facts.lipschitz};
-    std::transform(tape_.constants64.begin(), tape_.constants64.end(), std::back_inserter(tape_.constants), in_float32);
+    tape_.constants.assign(tape_.constants64.begin(), tape_.constants64.end());
     return std::move(tape_);
   }
 

@@ -108,7 +108,7 @@ HWY_INLINE void advance_closest(ClosestSearch<T, D>& s, const Field<T, D>& f) {
 
 template <class T, int D>
 HWY_NOINLINE void run_gradients(const Machine<T>& m, float* to) {
-  const Field<T, D> f = run(GradientMode<T, D>{}, m);
+  const Field<T, D> f = divided(run(GradientMode<T, D>{}, m));
   store(f.value, to);
   store_point(f.gradient, to + lanes_of<T>());
 }

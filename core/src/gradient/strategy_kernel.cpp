@@ -48,7 +48,7 @@ HWY_INLINE Point<T, D> by_probes(const GradientRule& rule, const Surroundings<T,
 template <int D>
 void probe_columns(const Tape& tape, const GradientRule& rule, const GradientColumns& columns, float* scratch) {
   using T = Pack<kValueWidth>;
-  const Machine<T> m = machine_for<kValueWidth>(tape, scratch, 1);
+  const Machine<T> m = machine_for<ValueMode<T, D>>(tape, scratch);
   const T absolute = Make<T>::set(rule.probe.absolute);
   const T of_value = Make<T>::set(rule.probe.of_value);
   const bool symmetric = rule.strategy == Gradient::central || rule.strategy == Gradient::simplex;
@@ -70,7 +70,7 @@ class ClosestLanes {
   using Search = ClosestSearch<T, D>;
 
   ClosestLanes(const Tape& tape, const GradientColumns& columns, float* scratch)
-      : tape_(tape), columns_(columns), machine_(machine_for<kGradientWidth>(tape, scratch, 1 + D)) {}
+      : tape_(tape), columns_(columns), machine_(machine_for<GradientMode<T, D>>(tape, scratch)) {}
 
   void run() {
     const size_t lanes = lanes_of<T>();

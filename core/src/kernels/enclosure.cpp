@@ -59,13 +59,13 @@ template <int D, bool kWithGradient>
 void enclosure_of(const Tape& tape, const float* const* centres, const CellColumns& cells, size_t count, float* lo,
                   float* value, float* scratch) {
   using T = Pack<kGradientWidth>;
-  const Machine<T> m = machine_for<kGradientWidth>(tape, scratch, kWithGradient ? 3 + D : 3);
+  using Mode = EnclosureMode<T, D, ColumnCell<T, D>, kWithGradient>;
+  const Machine<T> m = machine_for<Mode>(tape, scratch);
   const size_t lanes = lanes_of<T>();
   for (size_t i = 0; i < count; i += lanes) {
     for (int axis = 0; axis < D; ++axis)
       store(Make<T>::load(centres[axis] + i), m.positions + static_cast<size_t>(axis) * lanes);
-    const EnclosureMode<T, D, ColumnCell<T, D>, kWithGradient> mode{{&cells, i}};
-    const auto f = run(mode, m);
+    const auto f = run(Mode{{&cells, i}}, m);
     store(f.lo, lo + i);
     store(f.value, value + i);
     if constexpr (kWithGradient) {

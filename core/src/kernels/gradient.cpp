@@ -18,12 +18,12 @@ template <int D>
 void gradient_of(const Tape& tape, const float* const* points, size_t count, float* value, float* const* gradient,
                  float* scratch) {
   using T = Pack<kGradientWidth>;
-  const Machine<T> m = machine_for<kGradientWidth>(tape, scratch, 1 + D);
+  const Machine<T> m = machine_for<GradientMode<T, D>>(tape, scratch);
   const size_t lanes = lanes_of<T>();
   for (size_t i = 0; i < count; i += lanes) {
     for (int axis = 0; axis < D; ++axis)
       store(Make<T>::load(points[axis] + i), m.positions + static_cast<size_t>(axis) * lanes);
-    const Field<T, D> f = run(GradientMode<T, D>{}, m);
+    const Field<T, D> f = divided(run(GradientMode<T, D>{}, m));
     if (value != nullptr) store(f.value, value + i);
     store(f.gradient.x, gradient[0] + i);
     store(f.gradient.y, gradient[1] + i);

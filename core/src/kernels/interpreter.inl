@@ -4,7 +4,7 @@
 // The tape's machine, written once over the lane type T and over what a register holds:
 //
 //   ValueMode      acc is f                        one field value per lane
-//   GradientMode   acc is f and its gradient       closed forms of the op templates
+//   GradientMode   acc is f and its gradient       closed forms of the op templates, divided once at the end
 //   EnclosureMode  acc is [lo, hi] over a cell     from Lipschitz constants, support functions and monotone operators
 //
 // A chunk of pack_lanes<W>() points runs through the whole tape before the next one starts: the accumulator and the
@@ -67,6 +67,14 @@ HWY_INLINE void store_point(Point<T, 3> p, typename ConstantsOf<T>::Scalar* to) 
   store(p.z, to + 2 * lanes_of<T>());
 }
 template <class T>
+HWY_INLINE Constants<T> constants_of(const Machine<T>& m, const Instruction& in) {
+  return {m.pool + in.constants, in.constant_count};
+}
+template <class T>
+HWY_INLINE Constants<T> after(Constants<T> c, size_t first) {
+  return {c.pool + first, c.count - first};
+}
+template <class T>
 HWY_INLINE Point<T, 2> translated(Point<T, 2> p, Constants<T> c) {
   return {p.x - c[0], p.y - c[1]};
 }
@@ -109,17 +117,19 @@ HWY_INLINE Point<T, D> pull_through(Point<T, D> p, Constants<T> c, Point<T, D> g
   }
 }
 
-/// Brings a gradient at position `slot` back to the query point.
+/// Brings the gradient of a primitive back to the query point.
 template <class T, int D>
-HWY_INLINE Point<T, D> pull_back(const Machine<T>& m, size_t slot, Point<T, D> g) {
+HWY_INLINE Point<T, D> pull_back(const Machine<T>& m, const Instruction& in, Point<T, D> g) {
+  if ((in.flags & Instruction::kTurned) != 0) g = Op<rigid_index<D>()>::pull(g, constants_of(m, in), g);
+  size_t slot = in.operand;
   while (slot != 0) {
     const Instruction& made = m.instructions[m.definition[slot]];
-    const Constants<T> c{m.pool + made.constants, made.constant_count};
-    const auto p = load_point<T, D>(m.positions + made.operand * D * lanes_of<T>());
+    const Constants<T> c = constants_of(m, made);
+    const auto from = load_point<T, D>(m.positions + made.operand * D * lanes_of<T>());
     switch (made.op) {
-#define THALWEG_CASE(I)                 \
-  case I:                               \
-    g = pull_through<OpAt<I>>(p, c, g); \
+#define THALWEG_CASE(I)                    \
+  case I:                                  \
+    g = pull_through<OpAt<I>>(from, c, g); \
     break;
       THALWEG_CASES_64(THALWEG_CASE, 0)
 #undef THALWEG_CASE
@@ -168,14 +178,16 @@ template <class T_, int D_>
 struct GradientMode {
   using T = T_;
   static constexpr int D = D_;
-  static constexpr size_t kComponents = 1 + D;
-  using Register = Field<T, D>;
+  static constexpr size_t kComponents = 2 + D;
+  using Register = Ray<T, D>;
 
   template <class Declared>
-  HWY_INLINE Register primitive(const Machine<T>& m, const Instruction& in, Point<T, D> p, Constants<T> c) const {
-    Register f = Declared::field(p, c);
-    if (in.operand != 0) f.gradient = pull_back<T, D>(m, in.operand, f.gradient);
-    return f;
+  HWY_INLINE Register primitive(const Machine<T>&, const Instruction&, Point<T, D> p, Constants<T> c) const {
+    return undivided(Declared::field(p, c));
+  }
+  /// What is left to do for a primitive that was not asked at the query point; once in the machine, not in each op.
+  static HWY_INLINE void bring_back(const Machine<T>& m, const Instruction& in, Register& f) {
+    f.toward = pull_back<T, D>(m, in, f.toward);
   }
   template <class Declared>
   HWY_INLINE Register combine(const Machine<T>&, const Instruction&, const Register& a, const Register& b,
@@ -188,12 +200,15 @@ struct GradientMode {
   }
   template <class S>
   static HWY_INLINE Register load(const S* from) {
-    return {Make<T>::load(from), load_point<T, D>(from + lanes_of<T>())};
+    const size_t n = lanes_of<T>();
+    return {Make<T>::load(from), load_point<T, D>(from + 2 * n), Make<T>::load(from + n)};
   }
   template <class S>
   static HWY_INLINE void save(const Register& a, S* to) {
+    const size_t n = lanes_of<T>();
     store(a.value, to);
-    store_point(a.gradient, to + lanes_of<T>());
+    store(a.length, to + n);
+    store_point(a.toward, to + 2 * n);
   }
 };
 
@@ -218,15 +233,15 @@ struct EnclosureMode {
   /// is nowhere below 0.
   template <class Declared>
   HWY_INLINE Register primitive(const Machine<T>& m, const Instruction& in, Point<T, D> p, Constants<T> c) const {
-    const Field<T, D> f = Declared::field(p, c);
+    const auto f = divided(Declared::field(p, c));
     const T reach = cell.reach();
     const auto u = f.gradient;
     T lo = f.value - reach;
     if constexpr (Declared::kDeclaration.is_unsigned) lo = max(lo, zero<T>());
     Point<T, D> slope{};
-    if constexpr (kWithGradient) slope = pull_back<T, D>(m, in.operand, u);
+    if constexpr (kWithGradient) slope = pull_back<T, D>(m, in, u);
     if ((in.flags & (Instruction::kSupport | Instruction::kDepth)) != 0) {
-      if constexpr (!kWithGradient) slope = pull_back<T, D>(m, in.operand, u);
+      if constexpr (!kWithGradient) slope = pull_back<T, D>(m, in, u);
       const auto is_unit = Make<T>::set(0.9) < dot(u, u);
       if constexpr (requires { Declared::support(p, c); }) {
         if ((in.flags & Instruction::kSupport) != 0) {
@@ -287,13 +302,15 @@ HWY_INLINE void step(const Mode& mode, const Machine<typename Mode::T>& m, const
   using T = typename Mode::T;
   constexpr int D = Mode::D;
   constexpr OpKind kKind = Declared::kDeclaration.kind;
-  const Constants<T> c{m.pool + in.constants, in.constant_count};
+  const Constants<T> c = constants_of(m, in);
   if constexpr (!kApplies<Declared, D>) {
     HWY_ASSUME(false);
   } else if constexpr (kKind == OpKind::primitive) {
     const auto at = load_point<T, D>(m.positions + in.operand * D * lanes_of<T>());
-    const Constants<T> own{c.pool + D, c.count - D};
-    acc = mode.template primitive<Declared>(m, in, translated(at, c), own);
+    using Rigid = Op<rigid_index<D>()>;
+    const bool turned = !Declared::kDeclaration.absorbs_rotation && (in.flags & Instruction::kTurned) != 0;
+    const auto p = turned ? Rigid::map(at, c) : translated(at, c);
+    acc = mode.template primitive<Declared>(m, in, p, after(c, turned ? Rigid::kConstants : D));
   } else if constexpr (kKind == OpKind::combine) {
     const auto other = Mode::load(m.registers + in.operand * Mode::kComponents * lanes_of<T>());
     if ((in.flags & Instruction::kSwapped) != 0) {
@@ -332,6 +349,9 @@ HWY_INLINE typename Mode::Register run(const Mode& mode, const Machine<typename 
         if (in->op == Instruction::kLoad)
           acc = Mode::load(m.registers + in->operand * Mode::kComponents * lanes_of<T>());
     }
+    if constexpr (requires { Mode::bring_back(m, *in, acc); }) {
+      if ((in->flags & (Instruction::kTurned | Instruction::kWarped)) != 0) Mode::bring_back(m, *in, acc);
+    }
     if (in->target != Instruction::kNone) {
       Mode::save(acc, m.registers + in->target * Mode::kComponents * lanes_of<T>());
     }
@@ -339,18 +359,24 @@ HWY_INLINE typename Mode::Register run(const Mode& mode, const Machine<typename 
   return acc;
 }
 
-/// Cuts a scratch block into a machine's memory. `components` is the mode's.
-template <int W>
-HWY_INLINE Machine<Pack<W>> machine_for(const Tape& tape, float* scratch, size_t components) {
-  constexpr size_t kLanesAtMost = kMostChunkLanes;
-  Machine<Pack<W>> m;
+/// Floats of one machine's registers and positions.
+template <class Mode>
+HWY_INLINE size_t machine_floats(const Tape& tape) {
+  const size_t registers = static_cast<size_t>(tape.register_count) * Mode::kComponents;
+  return (registers + static_cast<size_t>(tape.position_count) * Mode::D) * lanes_of<typename Mode::T>();
+}
+
+/// Cuts a scratch block into a machine's memory.
+template <class Mode>
+HWY_INLINE Machine<typename Mode::T> machine_for(const Tape& tape, float* scratch) {
+  const auto positions = static_cast<size_t>(tape.position_count);
+  Machine<typename Mode::T> m;
   m.instructions = tape.instructions.data();
   m.instruction_count = tape.instructions.size();
   m.pool = tape.constants.data();
-  m.registers = scratch;
-  m.positions = m.registers + static_cast<size_t>(tape.register_count) * components * kLanesAtMost;
-  m.definition = reinterpret_cast<uint32_t*>(m.positions + static_cast<size_t>(tape.position_count) *
-                                                               static_cast<size_t>(tape.dimension) * kLanesAtMost);
+  m.definition = reinterpret_cast<uint32_t*>(scratch);
+  m.positions = scratch + definition_floats(tape);
+  m.registers = m.positions + positions * Mode::D * lanes_of<typename Mode::T>();
   return m;
 }
 

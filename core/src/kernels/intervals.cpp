@@ -57,7 +57,7 @@ struct IntervalMode {
 template <int D>
 void regions_of(const Tape& tape, const RegionColumns& regions, const RegionWork& work) {
   using T = Pack<kGradientWidth>;
-  const Machine<T> m = machine_for<kGradientWidth>(tape, work.scratch, 2);
+  const Machine<T> m = machine_for<IntervalMode<T, D>>(tape, work.scratch);
   const size_t lanes = lanes_of<T>();
   for (size_t i = 0; i < kRegionLanes; i += lanes) {
     for (int axis = 0; axis < D; ++axis) {

@@ -47,12 +47,20 @@ struct GradientColumns {
   float* const* witness = nullptr;       ///< `closest_point` only: a surface point, the nearest found; may be null
 };
 
-/// Floats of scratch that any of the evaluating kernels needs for a tape; align it to 64 bytes.
+/// Room for the instruction that made each position, at the head of a machine's scratch.
+[[nodiscard]] constexpr std::size_t definition_floats(const Tape& tape) {
+  return (static_cast<std::size_t>(tape.position_count) + 15) / 16 * 16;
+}
+
+/// Floats of scratch that any of the evaluating kernels needs for a tape; align it to 64 bytes. Enclosures with
+/// gradients have the widest registers, 3 + d numbers a lane, values the most lanes.
 [[nodiscard]] constexpr std::size_t scratch_floats(const Tape& tape) {
   const auto registers = static_cast<std::size_t>(tape.register_count);
   const auto positions = static_cast<std::size_t>(tape.position_count);
   const auto dimension = static_cast<std::size_t>(tape.dimension);
-  return kMostChunkLanes * (registers * (dimension == 2 ? 5 : 6) + positions * dimension) + positions + kColumnPadding;
+  static_assert(kMostChunkLanes <= kGradientWidth * 16 * std::size_t{4});
+  return kGradientWidth * 16 * registers * (dimension + 3) + kMostChunkLanes * positions * dimension +
+         definition_floats(tape);
 }
 
 using ValueKernel = void (*)(const Tape& tape, const float* const* points, std::size_t count, float* value,

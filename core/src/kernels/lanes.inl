@@ -72,14 +72,9 @@ struct Make<Pack<1>> {
 };
 template <int W>
 struct Make<Pack<W>> {
-  static HWY_INLINE Pack<W> set(double v) {
-    const auto half = Make<Pack<W / 2>>::set(v);
-    return {half, half};
-  }
-  static HWY_INLINE Pack<W> set(float v) {
-    const auto half = Make<Pack<W / 2>>::set(v);
-    return {half, half};
-  }
+  // A named half, used twice, would be kept in memory by g++ 12.
+  static HWY_INLINE Pack<W> set(double v) { return {Make<Pack<W / 2>>::set(v), Make<Pack<W / 2>>::set(v)}; }
+  static HWY_INLINE Pack<W> set(float v) { return {Make<Pack<W / 2>>::set(v), Make<Pack<W / 2>>::set(v)}; }
   static HWY_INLINE Pack<W> load(const float* p) {
     return {Make<Pack<W / 2>>::load(p), Make<Pack<W / 2>>::load(p + pack_lanes<W / 2>())};
   }
@@ -143,6 +138,8 @@ THALWEG_LANE_2(min, a.v < b.v ? a.v : b.v, hn::Min(a.v, b.v))
 THALWEG_LANE_2(max, a.v > b.v ? a.v : b.v, hn::Max(a.v, b.v))
 /// Magnitude of a with the sign of b.
 THALWEG_LANE_2(copysign, std::copysign(a.v, b.v), hn::CopySign(a.v, b.v))
+/// a with its sign turned where b is negative.
+THALWEG_LANE_2(times_sign, std::signbit(b.v) ? -a.v : a.v, hn::Xor(a.v, hn::And(hn::SignBit(F32()), b.v)))
 /// a * b + c, c - a * b and a * b - c, fused where the target can.
 THALWEG_LANE_3(mul_add, a.v* b.v + c.v, hn::MulAdd(a.v, b.v, c.v))
 THALWEG_LANE_3(neg_mul_add, c.v - a.v * b.v, hn::NegMulAdd(a.v, b.v, c.v))
@@ -196,6 +193,16 @@ template <class T, int D>
 struct Field {
   T value;
   Point<T, D> gradient;
+};
+
+/// A field whose gradient is not divided yet: it is toward / length, and 0 where the length is 0. A primitive knows the
+/// way from its closest point and how long it is; where one of two operands is chosen the division waits, so that a
+/// tape of many primitives divides once, at its end.
+template <class T, int D>
+struct Ray {
+  T value;
+  Point<T, D> toward;
+  T length;
 };
 
 /// A node's derived constants, broadcast to the lanes.
@@ -263,6 +270,32 @@ template <class T>
 HWY_INLINE Point<T, 3> operator-(Point<T, 3> a, Point<T, 3> b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
+template <class T>
+HWY_INLINE Point<T, 2> times_sign(Point<T, 2> a, T sign) {
+  return {times_sign(a.x, sign), times_sign(a.y, sign)};
+}
+template <class T>
+HWY_INLINE Point<T, 3> times_sign(Point<T, 3> a, T sign) {
+  return {times_sign(a.x, sign), times_sign(a.y, sign), times_sign(a.z, sign)};
+}
+/// a s + b t
+template <class T>
+HWY_INLINE Point<T, 2> sum_of(Point<T, 2> a, T s, Point<T, 2> b, T t) {
+  return {mul_add(a.x, s, b.x * t), mul_add(a.y, s, b.y * t)};
+}
+template <class T>
+HWY_INLINE Point<T, 3> sum_of(Point<T, 3> a, T s, Point<T, 3> b, T t) {
+  return {mul_add(a.x, s, b.x * t), mul_add(a.y, s, b.y * t), mul_add(a.z, s, b.z * t)};
+}
+/// c - a s
+template <class T>
+HWY_INLINE Point<T, 2> neg_mul_add(Point<T, 2> a, T s, Point<T, 2> c) {
+  return {neg_mul_add(a.x, s, c.x), neg_mul_add(a.y, s, c.y)};
+}
+template <class T>
+HWY_INLINE Point<T, 3> neg_mul_add(Point<T, 3> a, T s, Point<T, 3> c) {
+  return {neg_mul_add(a.x, s, c.x), neg_mul_add(a.y, s, c.y), neg_mul_add(a.z, s, c.z)};
+}
 template <class T, class M>
 HWY_INLINE Point<T, 2> select(M m, Point<T, 2> yes, Point<T, 2> no) {
   return {select(m, yes.x, no.x), select(m, yes.y, no.y)};
@@ -283,6 +316,32 @@ HWY_INLINE T reciprocal_or_zero(T a) {
 template <class T>
 HWY_INLINE T sign_of(T a) {
   return copysign(one<T>(), a);
+}
+
+/// Zeros come out positive, so that no product with 0 on the way shows.
+template <class T, int D>
+HWY_INLINE Field<T, D> divided(const Ray<T, D>& f) {
+  const T inverse = reciprocal_or_zero(f.length);
+  const T none = zero<T>();
+  if constexpr (D == 2) {
+    return {f.value, {mul_add(f.toward.x, inverse, none), mul_add(f.toward.y, inverse, none)}};
+  } else {
+    return {
+        f.value,
+        {mul_add(f.toward.x, inverse, none), mul_add(f.toward.y, inverse, none), mul_add(f.toward.z, inverse, none)}};
+  }
+}
+template <class T, int D>
+HWY_INLINE const Field<T, D>& divided(const Field<T, D>& f) {
+  return f;
+}
+template <class T, int D>
+HWY_INLINE Ray<T, D> undivided(const Field<T, D>& f) {
+  return {f.value, f.gradient, one<T>()};
+}
+template <class T, int D>
+HWY_INLINE const Ray<T, D>& undivided(const Ray<T, D>& f) {
+  return f;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -14,10 +14,10 @@ HWY_BEFORE_NAMESPACE();
 namespace thalweg {
 namespace HWY_NAMESPACE {
 
-/// Stores `count` lanes; only a batch's last chunk has fewer than all.
+/// Stores a chunk of rows of `width` numbers, of which `count` are left.
 template <class Store>
 HWY_INLINE void store_lanes(float* to, size_t count, size_t lanes, size_t width, Store&& store_all) {
-  if (count == lanes) {
+  if (HWY_LIKELY(count >= lanes)) {
     store_all(to);
     return;
   }
@@ -26,45 +26,82 @@ HWY_INLINE void store_lanes(float* to, size_t count, size_t lanes, size_t width,
   std::copy_n(tail, count * width, to);
 }
 
-template <int D, bool kWithGradient>
-size_t rows_of(const Tape& tape, const float* points, size_t count, float* value, float* gradient, float* scratch) {
-  constexpr int kWidth = kWithGradient ? kGradientWidth : kValueWidth;
-  using RowPack = Pack<kWidth>;
-  const Machine<RowPack> m = machine_for<kWidth>(tape, scratch, kWithGradient ? 1 + D : 1);
-  const size_t lanes = lanes_of<RowPack>();
-  const RowPack nan = Make<RowPack>::set(std::numeric_limits<float>::quiet_NaN());
-  size_t answered = 0;
-  for_each_chunk<RowPack, D>(points, count, [&](const float* rows, size_t at, size_t here) HWY_ATTR {
-    Point<RowPack, D> p;
-    load_interleaved(rows, p);
-    const auto good = is_answerable(p);
-    answered += count_true(good) - (lanes - here);
-    store_point(select(good, p, splat<RowPack, D>(zero<RowPack>())), m.positions);
-    Point<RowPack, D> g;
-    RowPack f;
-    if constexpr (kWithGradient) {
-      const auto field = run(GradientMode<RowPack, D>{}, m);
-      f = field.value;
-      g = select(good, field.gradient, splat<RowPack, D>(nan));
-    } else {
-      f = run(ValueMode<RowPack, D>{}, m).value;
+/// Rows in and answers out; counts the rows that cannot be answered.
+template <class T, int D>
+struct RowColumns {
+  const float* points;
+  size_t count;
+  float* value;
+  float* gradient;
+  size_t bad_rows = 0;
+
+  /// Stores the chunk of points from row `first` on at a machine's position 0. Whether all can be answered.
+  HWY_INLINE bool take(size_t first, float* position) const {
+    Point<T, D> p = load_rows<T, D>(points + first * D, count - first);
+    const bool all_good = all_answerable(p);
+    if (HWY_UNLIKELY(!all_good)) p = select(is_answerable(p), p, splat<T, D>(zero<T>()));
+    store_point(p, position);
+    return all_good;
+  }
+  HWY_INLINE void give(size_t first, bool all_good, T f) {
+    if (HWY_UNLIKELY(!all_good)) f = select(good_rows(first), f, not_a_number());
+    if (value == nullptr) return;
+    store_lanes(value + first, count - first, lanes_of<T>(), 1, [&](float* to) HWY_ATTR { store(f, to); });
+  }
+  HWY_INLINE void give(size_t first, bool all_good, Field<T, D> f) {
+    const size_t left = count - first;
+    if (HWY_UNLIKELY(!all_good)) {
+      const auto good = good_rows(first);
+      f = {select(good, f.value, not_a_number()), select(good, f.gradient, splat<T, D>(not_a_number()))};
     }
-    f = select(good, f, nan);
-    if (value != nullptr) store_lanes(value + at, here, lanes, 1, [&](float* to) HWY_ATTR { store(f, to); });
-    if constexpr (kWithGradient) {
-      store_lanes(gradient + at * D, here, lanes, D, [&](float* to) HWY_ATTR { store_interleaved(g, to); });
-    }
-  });
-  return count - answered;
+    const size_t lanes = lanes_of<T>();
+    if (value != nullptr) store_lanes(value + first, left, lanes, 1, [&](float* to) HWY_ATTR { store(f.value, to); });
+    store_lanes(gradient + first * D, left, lanes, D, [&](float* to) HWY_ATTR { store_interleaved(f.gradient, to); });
+  }
+
+ private:
+  static HWY_INLINE T not_a_number() { return Make<T>::set(std::numeric_limits<float>::quiet_NaN()); }
+  HWY_INLINE auto good_rows(size_t first) {
+    const auto good = is_answerable(load_rows<T, D>(points + first * D, count - first));
+    bad_rows += lanes_of<T>() - count_true(good);
+    return good;
+  }
+};
+
+template <int D>
+size_t values_of(const Tape& tape, const float* points, size_t count, float* value, float* scratch) {
+  using Mode = ValueMode<Pack<kValueWidth>, D>;
+  using T = typename Mode::T;
+  const Machine<T> m = machine_for<Mode>(tape, scratch);
+  RowColumns<T, D> rows{points, count, value, nullptr};
+  for (size_t i = 0; i < count; i += lanes_of<T>()) {
+    const bool all_good = rows.take(i, m.positions);
+    rows.give(i, all_good, run(Mode{}, m).value);
+  }
+  return rows.bad_rows;
+}
+
+template <int D>
+size_t gradients_of(const Tape& tape, const float* points, size_t count, float* value, float* gradient,
+                    float* scratch) {
+  using Mode = GradientMode<Pack<kGradientWidth>, D>;
+  using T = typename Mode::T;
+  const Machine<T> m = machine_for<Mode>(tape, scratch);
+  RowColumns<T, D> rows{points, count, value, gradient};
+  for (size_t i = 0; i < count; i += lanes_of<T>()) {
+    const bool all_good = rows.take(i, m.positions);
+    rows.give(i, all_good, divided(run(Mode{}, m)));
+  }
+  return rows.bad_rows;
 }
 
 size_t rows_kernel(const Tape& tape, const float* points, size_t count, float* value, float* gradient, float* scratch) {
   if (gradient == nullptr) {
-    return tape.dimension == 2 ? rows_of<2, false>(tape, points, count, value, nullptr, scratch)
-                               : rows_of<3, false>(tape, points, count, value, nullptr, scratch);
+    return tape.dimension == 2 ? values_of<2>(tape, points, count, value, scratch)
+                               : values_of<3>(tape, points, count, value, scratch);
   }
-  return tape.dimension == 2 ? rows_of<2, true>(tape, points, count, value, gradient, scratch)
-                             : rows_of<3, true>(tape, points, count, value, gradient, scratch);
+  return tape.dimension == 2 ? gradients_of<2>(tape, points, count, value, gradient, scratch)
+                             : gradients_of<3>(tape, points, count, value, gradient, scratch);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -64,6 +64,19 @@ HWY_INLINE Point<T, D> splat(T a) {
     return {a, a, a};
   }
 }
+HWY_INLINE V32 sum_of_vectors(Pack<1> a) { return a.v; }
+template <int W>
+HWY_INLINE V32 sum_of_vectors(Pack<W> a) {
+  return hn::Add(sum_of_vectors(a.lo), sum_of_vectors(a.hi));
+}
+/// Whether every point of a chunk is answerable, told from a sum of squares that NaN and infinity spoil; a chunk with
+/// points further than kLargestCoordinate from the origin may not be told.
+template <class T, int D>
+HWY_INLINE bool all_answerable(Point<T, D> p) {
+  const F32 d;
+  const auto most = hn::Set(d, kLargestCoordinate * kLargestCoordinate);
+  return hn::AllTrue(d, hn::Le(sum_of_vectors(dot(p, p)), most));
+}
 /// A comparison with NaN is false, so each coordinate is asked on its own.
 template <class T>
 HWY_INLINE auto is_answerable(Point<T, 2> p) {
@@ -82,16 +95,18 @@ HWY_INLINE size_t count_true(PackMask<W> m) {
   return count_true(m.lo) + count_true(m.hi);
 }
 
-/// Calls `body(rows, first, count)` chunk by chunk; the last, partial one is read from a buffer padded with zeros.
-template <class T, int D, class Body>
-HWY_INLINE void for_each_chunk(const float* rows, size_t count, Body&& body) {
-  const size_t lanes = lanes_of<T>();
-  size_t i = 0;
-  for (; i + lanes <= count; i += lanes) body(rows + i * D, i, lanes);
-  if (i == count) return;
-  float tail[D * kMostChunkLanes] = {};
-  std::copy_n(rows + i * D, (count - i) * D, tail);
-  body(tail, i, count - i);
+/// The next chunk of row-major points, of which `count` are left; the last, partial one is padded with zeros.
+template <class T, int D>
+HWY_INLINE Point<T, D> load_rows(const float* rows, size_t count) {
+  Point<T, D> p;
+  if (HWY_LIKELY(count >= lanes_of<T>())) {
+    load_interleaved(rows, p);
+  } else {
+    float tail[D * kMostChunkLanes] = {};
+    std::copy_n(rows, count * D, tail);
+    load_interleaved(tail, p);
+  }
+  return p;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -65,7 +65,7 @@ Machine<Real> twin_machine(const Tape& tape, double* memory, std::uint32_t* defi
 
 template <int D>
 double gradient_at(const Machine<Real>& m, double* gradient) {
-  const Field<Real, D> f = run(GradientMode<Real, D>{}, m);
+  const Field<Real, D> f = divided(run(GradientMode<Real, D>{}, m));
   gradient[0] = f.gradient.x.v;
   gradient[1] = f.gradient.y.v;
   if constexpr (D == 3) gradient[2] = f.gradient.z.v;
@@ -87,7 +87,7 @@ void Twin::use(const Tape& tape) {
   tape_ = &tape;
   const auto registers = static_cast<std::size_t>(tape.register_count);
   const auto positions = static_cast<std::size_t>(tape.position_count);
-  memory_.resize(std::max(memory_.size(), registers * 4 + positions * 3 + 4));
+  memory_.resize(std::max(memory_.size(), registers * 5 + positions * 3 + 4));
   definition_.resize(std::max(definition_.size(), positions));
 }
 

@@ -17,7 +17,7 @@ namespace HWY_NAMESPACE {
 template <int D>
 void value_of(const Tape& tape, const float* const* points, size_t count, float* value, float* scratch) {
   using T = Pack<kValueWidth>;
-  const Machine<T> m = machine_for<kValueWidth>(tape, scratch, 1);
+  const Machine<T> m = machine_for<ValueMode<T, D>>(tape, scratch);
   const size_t lanes = lanes_of<T>();
   for (size_t i = 0; i < count; i += lanes) {
     for (int axis = 0; axis < D; ++axis)

@@ -51,6 +51,17 @@ inline constexpr int kFirstOp = __COUNTER__ + 1;
 #undef THALWEG_OP
 inline constexpr int kOpCount = __COUNTER__ - kFirstOp;
 
+/// The op `rigid` of D dimensions.
+template <int D>
+consteval int rigid_index() {
+  return []<int... I>(std::integer_sequence<int, I...>) {
+    int found = 0;
+    ((found = Op<I>::kDeclaration.name == "rigid" && Op<I>::kDeclaration.dimension == D ? I : found), ...);
+    return found;
+  }
+  (std::make_integer_sequence<int, kOpCount>());
+}
+
 /// Calls `visit.template operator()<Op<I>>(I)` for every op.
 template <class Visitor>
 void for_each_op(Visitor&& visit) {

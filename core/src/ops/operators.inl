@@ -6,13 +6,63 @@
 // Smooth minima follow Inigo Quilez, "smooth minimum" (quadratic polynomial, normalised k).
 // Included by all.inl once per SIMD target.
 
+// What operators do to the slope of a field, whichever way it is kept.
+
 template <class T, int D>
-HWY_INLINE Field<T, D> lesser(const Field<T, D>& a, const Field<T, D>& b) {
-  return {min(a.value, b.value), select(b.value < a.value, b.gradient, a.gradient)};
+HWY_INLINE Field<T, D> with_value(const Field<T, D>& f, T value) {
+  return {value, f.gradient};
 }
 template <class T, int D>
-HWY_INLINE Field<T, D> negated(const Field<T, D>& a) {
-  return {-a.value, scaled(a.gradient, -one<T>())};
+HWY_INLINE Ray<T, D> with_value(const Ray<T, D>& f, T value) {
+  return {value, f.toward, f.length};
+}
+template <class T, int D, class M>
+HWY_INLINE Field<T, D> select(M m, const Field<T, D>& yes, const Field<T, D>& no) {
+  return {select(m, yes.value, no.value), select(m, yes.gradient, no.gradient)};
+}
+template <class T, int D, class M>
+HWY_INLINE Ray<T, D> select(M m, const Ray<T, D>& yes, const Ray<T, D>& no) {
+  return {select(m, yes.value, no.value), select(m, yes.toward, no.toward), select(m, yes.length, no.length)};
+}
+/// f where `sign` is not negative, -f where it is.
+template <class T, int D>
+HWY_INLINE Field<T, D> times_sign(const Field<T, D>& f, T sign) {
+  return {times_sign(f.value, sign), times_sign(f.gradient, sign)};
+}
+template <class T, int D>
+HWY_INLINE Ray<T, D> times_sign(const Ray<T, D>& f, T sign) {
+  return {times_sign(f.value, sign), times_sign(f.toward, sign), f.length};
+}
+template <class F>
+HWY_INLINE F negated(const F& f) {
+  return times_sign(f, -one<decltype(f.value)>());
+}
+
+template <class F>
+HWY_INLINE F lesser(const F& a, const F& b) {
+  return with_value(select(b.value < a.value, b, a), min(a.value, b.value));
+}
+
+/// The slope of (1 - weight) a + weight b where `within`; elsewhere weight is 0 or 1 and the slope a's or b's own.
+template <class T, int D, class M>
+HWY_INLINE Field<T, D> blended(const Field<T, D>& a, const Field<T, D>& b, T weight, M within) {
+  const auto takes_b = zero<T>() < weight;
+  const Point<T, D> own = select(takes_b, b.gradient, a.gradient);
+  return {a.value, select(within, a.gradient + scaled(b.gradient - a.gradient, weight), own)};
+}
+/// Divides once for both. Lengths of at least 2^-62 keep the product a normal number, and no way is much longer than
+/// its length, so the shares are not either.
+template <class T, int D, class M>
+HWY_INLINE Ray<T, D> blended(const Ray<T, D>& a, const Ray<T, D>& b, T weight, M within) {
+  const T least = Make<T>::set(0x1p-62);
+  const T a_length = max(a.length, least);
+  const T b_length = max(b.length, least);
+  const T inverse = one<T>() / (a_length * b_length);
+  const T rest = one<T>() - weight;
+  const T a_share = select(within, rest * (b_length * inverse), rest);
+  const T b_share = select(within, weight * (a_length * inverse), weight);
+  return {a.value, sum_of(a.toward, a_share, b.toward, b_share),
+          select(within, one<T>(), select(zero<T>() < weight, b.length, a.length))};
 }
 
 /// Constants: 4k and 1 / 4k, or 0 and 0 for the hard minimum.
@@ -25,16 +75,13 @@ inline void derive_smoothness(Numbers p, Constants64& c) {
 /// h / 2, so the gradient is a convex combination: no Lipschitz constant grows, and neither does an operand's error.
 /// h <= 1 carries at most 4 eps (the constants, the difference, the product), its square 9, and the blend, for which
 /// the width is rounded again, 10 eps width / 4 = 10 eps k; 12 with the products' own roundings where nothing is fused.
-template <class T, int D>
-HWY_INLINE Field<T, D> smooth_lesser(const Field<T, D>& a, const Field<T, D>& b, Constants<T> c) {
+template <class F, class T>
+HWY_INLINE F smooth_lesser(const F& a, const F& b, Constants<T> c) {
   const T h = max(c[0] - abs(a.value - b.value), zero<T>()) * c[1];
   const T value = neg_mul_add(h * h, c[0] * Make<T>::set(0.25), min(a.value, b.value));
-  const T weight = h * Make<T>::set(0.5);
-  const auto b_less = b.value < a.value;
-  const Point<T, D> least = select(b_less, b.gradient, a.gradient);
-  const Point<T, D> other = select(b_less, a.gradient, b.gradient);
-  // Outside of the blend the gradient is the operand's own to the last bit: shortened tapes rely on it.
-  return {value, select(zero<T>() < h, least + scaled(other - least, weight), least)};
+  const T far = h * Make<T>::set(0.5);
+  const T weight = select(b.value < a.value, one<T>() - far, far);
+  return with_value(blended(a, b, weight, zero<T>() < h), value);
 }
 
 inline constexpr std::string_view kSmoothKinds = "quadratic";
@@ -64,8 +111,8 @@ THALWEG_OP {
             .is_unsigned = a.is_unsigned && b.is_unsigned};
   }
   static void derive(Numbers, Constants64 & c) { c.clear(); }
-  template <class T, int D>
-  static HWY_INLINE Field<T, D> combine(const Field<T, D>& a, const Field<T, D>& b, Constants<T>) {
+  template <class F, class T>
+  static HWY_INLINE F combine(const F& a, const F& b, Constants<T>) {
     return lesser(a, b);
   }
 };
@@ -87,9 +134,9 @@ THALWEG_OP {
             .is_unsigned = a.is_unsigned || b.is_unsigned};
   }
   static void derive(Numbers, Constants64 & c) { c.clear(); }
-  template <class T, int D>
-  static HWY_INLINE Field<T, D> combine(const Field<T, D>& a, const Field<T, D>& b, Constants<T>) {
-    return {max(a.value, b.value), select(a.value < b.value, b.gradient, a.gradient)};
+  template <class F, class T>
+  static HWY_INLINE F combine(const F& a, const F& b, Constants<T>) {
+    return with_value(select(a.value < b.value, b, a), max(a.value, b.value));
   }
 };
 
@@ -112,9 +159,9 @@ THALWEG_OP {
             .is_unsigned = a.is_unsigned};
   }
   static void derive(Numbers, Constants64 & c) { c.clear(); }
-  template <class T, int D>
-  static HWY_INLINE Field<T, D> combine(const Field<T, D>& a, const Field<T, D>& b, Constants<T>) {
-    return {max(a.value, -b.value), select(a.value < -b.value, scaled(b.gradient, -one<T>()), a.gradient)};
+  template <class F, class T>
+  static HWY_INLINE F combine(const F& a, const F& b, Constants<T>) {
+    return with_value(select(a.value < -b.value, negated(b), a), max(a.value, -b.value));
   }
 };
 
@@ -133,8 +180,8 @@ THALWEG_OP {
             .inside = weaker(Exactness::lower_bound, weaker(a.inside, b.inside))};
   }
   static void derive(Numbers p, Constants64 & c) { derive_smoothness(p, c); }
-  template <class T, int D>
-  static HWY_INLINE Field<T, D> combine(const Field<T, D>& a, const Field<T, D>& b, Constants<T> c) {
+  template <class F, class T>
+  static HWY_INLINE F combine(const F& a, const F& b, Constants<T> c) {
     return smooth_lesser(a, b, c);
   }
 };
@@ -159,8 +206,8 @@ THALWEG_OP {
             .is_unsigned = a.is_unsigned || b.is_unsigned};
   }
   static void derive(Numbers p, Constants64 & c) { derive_smoothness(p, c); }
-  template <class T, int D>
-  static HWY_INLINE Field<T, D> combine(const Field<T, D>& a, const Field<T, D>& b, Constants<T> c) {
+  template <class F, class T>
+  static HWY_INLINE F combine(const F& a, const F& b, Constants<T> c) {
     return negated(smooth_lesser(negated(a), negated(b), c));
   }
 };
@@ -184,8 +231,8 @@ THALWEG_OP {
             .is_unsigned = a.is_unsigned};
   }
   static void derive(Numbers p, Constants64 & c) { derive_smoothness(p, c); }
-  template <class T, int D>
-  static HWY_INLINE Field<T, D> combine(const Field<T, D>& a, const Field<T, D>& b, Constants<T> c) {
+  template <class F, class T>
+  static HWY_INLINE F combine(const F& a, const F& b, Constants<T> c) {
     return negated(smooth_lesser(negated(a), b, c));
   }
 };
@@ -207,9 +254,9 @@ THALWEG_OP {
             .is_unsigned = a.is_unsigned && p[0] == 0};
   }
   static void derive(Numbers p, Constants64 & c) { c = {p[0]}; }
-  template <class T, int D>
-  static HWY_INLINE Field<T, D> map(const Field<T, D>& a, Constants<T> c) {
-    return {a.value - c[0], a.gradient};
+  template <class F, class T>
+  static HWY_INLINE F map(const F& a, Constants<T> c) {
+    return with_value(a, a.value - c[0]);
   }
 };
 
@@ -229,9 +276,9 @@ THALWEG_OP {
             .convex = a.is_unsigned && a.convex};
   }
   static void derive(Numbers p, Constants64 & c) { c = {p[0]}; }
-  template <class T, int D>
-  static HWY_INLINE Field<T, D> map(const Field<T, D>& a, Constants<T> c) {
-    return {abs(a.value) - c[0], scaled(a.gradient, sign_of(a.value))};
+  template <class F, class T>
+  static HWY_INLINE F map(const F& a, Constants<T> c) {
+    return with_value(times_sign(a, a.value), abs(a.value) - c[0]);
   }
   /// abs over an interval: its least value is 0 when the interval holds 0.
   template <class T>

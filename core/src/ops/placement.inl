@@ -91,8 +91,8 @@ THALWEG_OP {
   static Similarity similarity(Numbers p) { return {.scale = p[0]}; }
 };
 
-/// The one placement that is also an instruction: constants are the translation and the rotation's rows as they act
-/// on the way in, p -> R^T (p - t).
+/// The one placement that is left in a tape, as an instruction of its own or as the beginning of a primitive: constants
+/// are the translation and the rotation's rows as they act on the way in, p -> R^T (p - t).
 THALWEG_OP {
   static constexpr Declaration kDeclaration{.name = "rigid",
                                             .kind = OpKind::place,
@@ -106,6 +106,7 @@ THALWEG_OP {
     s.translation = {p[0], p[1], 0};
     return s;
   }
+  static constexpr std::size_t kConstants = 4;
   static void derive(const Similarity& s, Constants64& c) {
     c = {s.translation[0], s.translation[1], s.rotation[0], s.rotation[3]};
   }
@@ -132,6 +133,7 @@ THALWEG_OP {
     s.translation = {p[0], p[1], p[2]};
     return s;
   }
+  static constexpr std::size_t kConstants = 12;
   static void derive(const Similarity& s, Constants64& c) {
     c.assign(s.translation.begin(), s.translation.end());
     c.insert(c.end(), s.rotation.begin(), s.rotation.end());

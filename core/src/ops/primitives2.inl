@@ -9,32 +9,31 @@
 
 /// Signed distance to an axis-aligned box given q = |p| - half_size, in the first quadrant; rounded by `radius`.
 template <class T>
-HWY_INLINE Field<T, 2> corner_field(Point<T, 2> q, T radius) {
+HWY_INLINE Ray<T, 2> corner_field(Point<T, 2> q, T radius) {
   const Point<T, 2> out = {max(q.x, zero<T>()), max(q.y, zero<T>())};
   const T distance = length(out);
   const T depth = min(max(q.x, q.y), zero<T>());
   const auto is_outside = zero<T>() < distance;
   const auto face_x = q.y <= q.x;
-  const T inverse = reciprocal_or_zero(distance);
   const Point<T, 2> face = {select(face_x, one<T>(), zero<T>()), select(face_x, zero<T>(), one<T>())};
-  return {distance + depth - radius, select(is_outside, scaled(out, inverse), face)};
+  return {distance + depth - radius, select(is_outside, out, face), select(is_outside, distance, one<T>())};
 }
 
-/// Closest point of the segment from the origin to `edge`: the residual from it, and how far along it lies.
+/// Closest point of the segment from the origin along the unit vector `edge`: the residual from it, and how far along
+/// it lies.
 template <class T, int D>
 struct Foot {
   T along;
   Point<T, D> residual;
 };
 template <class T, int D>
-HWY_INLINE Foot<T, D> foot_on_edge(Point<T, D> w, Point<T, D> edge, T inverse_square) {
-  const T along = clamp(dot(w, edge) * inverse_square, zero<T>(), one<T>());
-  return {along, w - scaled(edge, along)};
+HWY_INLINE Foot<T, D> foot_on_edge(Point<T, D> w, Point<T, D> edge, T length) {
+  const T along = clamp(dot(w, edge), zero<T>(), length);
+  return {along, neg_mul_add(edge, along, w)};
 }
 
-/// 1 / a, or 0 where a, the square of a length, is too small: an edge of no length is a point. To float32 one below
-/// 2^-62 is (see constants of a Tape), to the twin in double one below 2^-500.
-inline double inverse_or_zero(double square) { return square < 0x1p-1000 ? 0.0 : 1.0 / square; }
+/// A component of the unit vector along an edge; an edge of no length is a point.
+inline double along_edge(double component, double length) { return length > 0 ? component / length : 0.0; }
 
 /// Which side of the ray from the origin along (sine, cosine) a point with x >= 0 lies on: positive beyond the wedge
 /// around +y. Behind the apex the axis decides too, which keeps the sign right for wedges of any width.
@@ -53,9 +52,9 @@ THALWEG_OP {
   static void derive(Numbers p, Constants64 & c) { c = {p[0]}; }
 
   template <class T>
-  static HWY_INLINE Field<T, 2> field(Point<T, 2> p, Constants<T> c) {
+  static HWY_INLINE Ray<T, 2> field(Point<T, 2> p, Constants<T> c) {
     const T r = length(p);
-    return {r - c[0], scaled(p, reciprocal_or_zero(r))};
+    return {r - c[0], p, r};
   }
   template <class T>
   static HWY_INLINE T support(Point<T, 2>, Constants<T> c) {
@@ -71,9 +70,9 @@ THALWEG_OP {
   static void derive(Numbers p, Constants64 & c) { c = {p[0], p[1]}; }
 
   template <class T>
-  static HWY_INLINE Field<T, 2> field(Point<T, 2> p, Constants<T> c) {
+  static HWY_INLINE Ray<T, 2> field(Point<T, 2> p, Constants<T> c) {
     const auto f = corner_field<T>({abs(p.x) - c[0], abs(p.y) - c[1]}, zero<T>());
-    return {f.value, {copysign(f.gradient.x, p.x), copysign(f.gradient.y, p.y)}};
+    return {f.value, {copysign(f.toward.x, p.x), copysign(f.toward.y, p.y)}, f.length};
   }
   template <class T>
   static HWY_INLINE T support(Point<T, 2> u, Constants<T> c) {
@@ -102,10 +101,10 @@ THALWEG_OP {
     return select(zero<T>() < p.x, select(top, c[2], c[3]), select(top, c[4], c[5]));
   }
   template <class T>
-  static HWY_INLINE Field<T, 2> field(Point<T, 2> p, Constants<T> c) {
+  static HWY_INLINE Ray<T, 2> field(Point<T, 2> p, Constants<T> c) {
     const T r = corner_radius(p, c);
     const auto f = corner_field<T>({abs(p.x) - (c[0] - r), abs(p.y) - (c[1] - r)}, r);
-    return {f.value, {copysign(f.gradient.x, p.x), copysign(f.gradient.y, p.y)}};
+    return {f.value, {copysign(f.toward.x, p.x), copysign(f.toward.y, p.y)}, f.length};
   }
   template <class T>
   static HWY_INLINE T support(Point<T, 2> u, Constants<T> c) {
@@ -124,17 +123,20 @@ THALWEG_OP {
   static constexpr OpParameter kParameters[] = {point("a", "one end", 2), point("b", "the other end", 2)};
   static PrimitiveFacts facts(Numbers) { return {.convex = true}; }
   static Bounds bounds(Numbers p) { return point_bounds(p, 2); }
-  static void derive(Numbers p, Constants64 & c) { c = {p[2], p[3], inverse_or_zero(p[2] * p[2] + p[3] * p[3])}; }
+  static void derive(Numbers p, Constants64 & c) {
+    const double length = std::hypot(p[2], p[3]);
+    c = {along_edge(p[2], length), along_edge(p[3], length), length};
+  }
 
   template <class T>
-  static HWY_INLINE Field<T, 2> field(Point<T, 2> p, Constants<T> c) {
+  static HWY_INLINE Ray<T, 2> field(Point<T, 2> p, Constants<T> c) {
     const auto foot = foot_on_edge<T, 2>(p, {c[0], c[1]}, c[2]);
     const T r = length(foot.residual);
-    return {r, scaled(foot.residual, reciprocal_or_zero(r))};
+    return {r, foot.residual, r};
   }
   template <class T>
   static HWY_INLINE T support(Point<T, 2> u, Constants<T> c) {
-    return max(zero<T>(), dot<T>({c[0], c[1]}, u));
+    return c[2] * max(zero<T>(), dot<T>({c[0], c[1]}, u));
   }
 };
 
@@ -154,53 +156,58 @@ THALWEG_OP {
     }
     return std::nullopt;
   }
-  /// Per edge: start, edge vector, 1 / edge^2, outward normal. The first corner is the origin.
+  /// Per edge, counter-clockwise: its unit vector, where its middle lies along it, half of its length, the height of
+  /// its line above the origin; then the second and third corner. The first one is the origin.
   static void derive(Numbers p, Constants64 & c) {
-    const double turn = twice_area(p) < 0 ? -1.0 : 1.0;
+    const bool turned = twice_area(p) < 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3;
-      const double ex = p[2 * j] - p[2 * i];
-      const double ey = p[2 * j + 1] - p[2 * i + 1];
-      const double length = std::hypot(ex, ey);
-      c.insert(c.end(), {p[2 * i], p[2 * i + 1], ex, ey, inverse_or_zero(length * length), turn * ey / length,
-                         -turn * ex / length});
+      const std::size_t from = 2 * (turned ? (3 - i) % 3 : i);
+      const std::size_t to = 2 * (turned ? 2 - i : (i + 1) % 3);
+      const double length = std::hypot(p[to] - p[from], p[to + 1] - p[from + 1]);
+      const double ux = (p[to] - p[from]) / length;
+      const double uy = (p[to + 1] - p[from + 1]) / length;
+      c.insert(c.end(),
+               {ux, uy, ux * p[from] + uy * p[from + 1] + length / 2, length / 2, uy * p[from] - ux * p[from + 1]});
     }
+    c.insert(c.end(), {p[2], p[3], p[4], p[5]});
   }
 
   template <class T>
-  static HWY_INLINE Field<T, 2> field(Point<T, 2> p, Constants<T> c) {
+  static HWY_INLINE Ray<T, 2> field(Point<T, 2> p, Constants<T> c) {
     T square = Make<T>::set(3e38);
     T side = Make<T>::set(-3e38);
-    T along = zero<T>();
-    Point<T, 2> residual = {zero<T>(), zero<T>()};
-    Point<T, 2> nearest = residual;
-    Point<T, 2> highest = residual;
-    for (size_t i = 0; i < 21; i += 7) {
-      const Point<T, 2> w = {p.x - c[i], p.y - c[i + 1]};
-      const Point<T, 2> n = {c[i + 5], c[i + 6]};
-      const auto foot = foot_on_edge<T, 2>(w, {c[i + 2], c[i + 3]}, c[i + 4]);
-      const T squared = dot(foot.residual, foot.residual);
+    // Of the nearest edge: its direction, the height above it, and how far past its ends.
+    Point<T, 2> edge = {zero<T>(), zero<T>()};
+    T above = zero<T>();
+    T beyond = zero<T>();
+    for (size_t i = 0; i < 15; i += 5) {
+      const Point<T, 2> u = {c[i], c[i + 1]};
+      const T along = mul_add(u.x, p.x, mul_sub(u.y, p.y, c[i + 2]));
+      const T height = mul_sub(u.y, p.x, mul_add(u.x, p.y, c[i + 4]));
+      const T past = max(abs(along) - c[i + 3], zero<T>());
+      const T squared = mul_add(past, past, height * height);
       const auto nearer = squared < square;
-      residual = select(nearer, foot.residual, residual);
-      nearest = select(nearer, n, nearest);
-      along = select(nearer, foot.along, along);
+      edge = select(nearer, u, edge);
+      above = select(nearer, height, above);
+      beyond = select(nearer, copysign(past, along), beyond);
       square = min(square, squared);
-      const T height = dot(w, n);
-      highest = select(side < height, n, highest);
       side = max(side, height);
     }
     // Inside, the edge of greatest height is the nearest one, and its height the distance to it: heights that are all
     // negative by rounding alone, beyond the tip of a needle, are told by a distance that is far more. Outside, the
-    // normal of a face is exact where the residual of a point close to it is noise.
+    // normal of a face is exact where the way from a point close to it is noise.
     const T distance = sqrt(square);
     const auto is_outside = zero<T>() < mul_add(Make<T>::set(2.0), side, distance);
-    const auto on_face = both(zero<T>() < along, along < one<T>());
-    const Point<T, 2> direction = select(on_face, nearest, scaled(residual, reciprocal_or_zero(distance)));
-    return {select(is_outside, distance, side), select(is_outside, direction, highest)};
+    const auto at_corner = both(is_outside, zero<T>() < abs(beyond));
+    const Point<T, 2> normal = {edge.y, -edge.x};
+    const Point<T, 2> from_corner = {mul_add(edge.x, beyond, above * normal.x),
+                                     mul_add(edge.y, beyond, above * normal.y)};
+    return {select(is_outside, distance, side), select(at_corner, from_corner, normal),
+            select(at_corner, distance, one<T>())};
   }
   template <class T>
   static HWY_INLINE T support(Point<T, 2> u, Constants<T> c) {
-    return max(max(zero<T>(), dot<T>({c[7], c[8]}, u)), dot<T>({c[14], c[15]}, u));
+    return max(max(zero<T>(), dot<T>({c[15], c[16]}, u)), dot<T>({c[17], c[18]}, u));
   }
 };
 
@@ -220,7 +227,7 @@ THALWEG_OP {
     if (!is_simple_polygon(p)) return Complaint{"points", "a polygon whose edges do not cross or touch"};
     return std::nullopt;
   }
-  /// Per edge: start, edge vector, 1 / edge^2, end height, outward normal. The first corner is the origin.
+  /// Per edge: start, unit vector, length, end height, outward normal. The first corner is the origin.
   static void derive(Numbers p, Constants64 & c) {
     const double turn = polygon_area(p) < 0 ? -1.0 : 1.0;
     for (std::size_t i = 0; i < p.size(); i += 2) {
@@ -228,18 +235,19 @@ THALWEG_OP {
       const double ex = p[j] - p[i];
       const double ey = p[j + 1] - p[i + 1];
       const double length = std::hypot(ex, ey);
-      c.insert(c.end(), {p[i], p[i + 1], ex, ey, inverse_or_zero(length * length), p[j + 1], turn * ey / length,
-                         -turn * ex / length});
+      const double ux = along_edge(ex, length);
+      const double uy = along_edge(ey, length);
+      c.insert(c.end(), {p[i], p[i + 1], ux, uy, length, p[j + 1], turn * uy, -turn * ux});
     }
   }
 
   template <class T>
-  static HWY_INLINE Field<T, 2> field(Point<T, 2> p, Constants<T> c) {
+  static HWY_INLINE Ray<T, 2> field(Point<T, 2> p, Constants<T> c) {
     T square = Make<T>::set(3e38);
     T sign = one<T>();
     Point<T, 2> residual = {zero<T>(), zero<T>()};
     Point<T, 2> normal = residual;
-    T along = zero<T>();
+    T on_face = zero<T>();  // positive where the closest point is no corner
     for (size_t i = 0; i < c.count; i += 8) {
       const Point<T, 2> w = {p.x - c[i], p.y - c[i + 1]};
       const Point<T, 2> edge = {c[i + 2], c[i + 3]};
@@ -248,7 +256,7 @@ THALWEG_OP {
       const auto nearer = squared < square;
       residual = select(nearer, foot.residual, residual);
       normal = select(nearer, Point<T, 2>{c[i + 6], c[i + 7]}, normal);
-      along = select(nearer, foot.along, along);
+      on_face = select(nearer, min(foot.along, c[i + 4] - foot.along), on_face);
       square = min(square, squared);
       // Even-odd rule: each edge that spans the point's height and passes on its right turns the sign.
       const auto rises = c[i + 1] <= p.y;
@@ -257,9 +265,9 @@ THALWEG_OP {
       sign = select(spans, select(passes_left, sign, -sign), sign);
     }
     const T distance = sqrt(square);
-    const auto on_face = both(zero<T>() < along, along < one<T>());
-    const Point<T, 2> direction = scaled(residual, reciprocal_or_zero(distance) * sign);
-    return {distance * sign, select(on_face, normal, direction)};
+    const auto at_face = zero<T>() < on_face;
+    return {times_sign(distance, sign), select(at_face, normal, times_sign(residual, sign)),
+            select(at_face, one<T>(), distance)};
   }
   template <class T>
   static HWY_INLINE T support(Point<T, 2> u, Constants<T> c) {

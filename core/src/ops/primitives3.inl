@@ -13,9 +13,9 @@ THALWEG_OP {
   static void derive(Numbers p, Constants64 & c) { c = {p[0]}; }
 
   template <class T>
-  static HWY_INLINE Field<T, 3> field(Point<T, 3> p, Constants<T> c) {
+  static HWY_INLINE Ray<T, 3> field(Point<T, 3> p, Constants<T> c) {
     const T r = length(p);
-    return {r - c[0], scaled(p, reciprocal_or_zero(r))};
+    return {r - c[0], p, r};
   }
   template <class T>
   static HWY_INLINE T support(Point<T, 3>, Constants<T> c) {
@@ -31,7 +31,7 @@ THALWEG_OP {
   static void derive(Numbers p, Constants64 & c) { c.assign(p.begin(), p.end()); }
 
   template <class T>
-  static HWY_INLINE Field<T, 3> field(Point<T, 3> p, Constants<T> c) {
+  static HWY_INLINE Ray<T, 3> field(Point<T, 3> p, Constants<T> c) {
     const Point<T, 3> q = {abs(p.x) - c[0], abs(p.y) - c[1], abs(p.z) - c[2]};
     const Point<T, 3> out = {max(q.x, zero<T>()), max(q.y, zero<T>()), max(q.z, zero<T>())};
     const T distance = length(out);
@@ -41,8 +41,11 @@ THALWEG_OP {
     const Point<T, 3> face = {select(is_x, one<T>(), zero<T>()),
                               select(is_x, zero<T>(), select(is_y, one<T>(), zero<T>())),
                               select(either(is_x, is_y), zero<T>(), one<T>())};
-    const Point<T, 3> g = select(zero<T>() < distance, scaled(out, reciprocal_or_zero(distance)), face);
-    return {distance + min(highest, zero<T>()), {copysign(g.x, p.x), copysign(g.y, p.y), copysign(g.z, p.z)}};
+    const auto is_outside = zero<T>() < distance;
+    const Point<T, 3> g = select(is_outside, out, face);
+    return {distance + min(highest, zero<T>()),
+            {copysign(g.x, p.x), copysign(g.y, p.y), copysign(g.z, p.z)},
+            select(is_outside, distance, one<T>())};
   }
   template <class T>
   static HWY_INLINE T support(Point<T, 3> u, Constants<T> c) {
@@ -67,13 +70,12 @@ THALWEG_OP {
   static void derive(Numbers p, Constants64 & c) { c.assign(p.begin(), p.end()); }
 
   template <class T>
-  static HWY_INLINE Field<T, 3> field(Point<T, 3> p, Constants<T> c) {
+  static HWY_INLINE Ray<T, 3> field(Point<T, 3> p, Constants<T> c) {
     const T axis = length(Point<T, 2>{p.x, p.z});
     const Point<T, 2> q = {axis - c[0], p.y};
     const T r = length(q);
-    const T inverse = reciprocal_or_zero(r);
-    const T radial = q.x * inverse * reciprocal_or_zero(axis);
-    return {r - c[1], {p.x * radial, p.y * inverse, p.z * radial}};
+    const T inverse = reciprocal_or_zero(axis);
+    return {r - c[1], {p.x * inverse * q.x, p.y, p.z * inverse * q.x}, r};
   }
 };
 
@@ -85,18 +87,19 @@ THALWEG_OP {
   static PrimitiveFacts facts(Numbers) { return {.convex = true}; }
   static Bounds bounds(Numbers p) { return grown(point_bounds(p.first(6), 3), 3, p[6]); }
   static void derive(Numbers p, Constants64 & c) {
-    c = {p[3], p[4], p[5], inverse_or_zero(p[3] * p[3] + p[4] * p[4] + p[5] * p[5]), p[6]};
+    const double length = std::hypot(p[3], p[4], p[5]);
+    c = {along_edge(p[3], length), along_edge(p[4], length), along_edge(p[5], length), length, p[6]};
   }
 
   template <class T>
-  static HWY_INLINE Field<T, 3> field(Point<T, 3> p, Constants<T> c) {
+  static HWY_INLINE Ray<T, 3> field(Point<T, 3> p, Constants<T> c) {
     const auto foot = foot_on_edge<T, 3>(p, {c[0], c[1], c[2]}, c[3]);
     const T r = length(foot.residual);
-    return {r - c[4], scaled(foot.residual, reciprocal_or_zero(r))};
+    return {r - c[4], foot.residual, r};
   }
   template <class T>
   static HWY_INLINE T support(Point<T, 3> u, Constants<T> c) {
-    return max(zero<T>(), dot<T>({c[0], c[1], c[2]}, u)) + c[4];
+    return mul_add(c[3], max(zero<T>(), dot<T>({c[0], c[1], c[2]}, u)), c[4]);
   }
 };
 
@@ -109,11 +112,11 @@ THALWEG_OP {
   static void derive(Numbers p, Constants64 & c) { c.assign(p.begin(), p.end()); }
 
   template <class T>
-  static HWY_INLINE Field<T, 3> field(Point<T, 3> p, Constants<T> c) {
+  static HWY_INLINE Ray<T, 3> field(Point<T, 3> p, Constants<T> c) {
     const T axis = length(Point<T, 2>{p.x, p.z});
     const auto f = corner_field<T>({axis - c[1], abs(p.y) - c[0]}, zero<T>());
-    const T radial = f.gradient.x * reciprocal_or_zero(axis);
-    return {f.value, {p.x * radial, copysign(f.gradient.y, p.y), p.z * radial}};
+    const T inverse = reciprocal_or_zero(axis);
+    return {f.value, {p.x * inverse * f.toward.x, copysign(f.toward.y, p.y), p.z * inverse * f.toward.x}, f.length};
   }
   template <class T>
   static HWY_INLINE T support(Point<T, 3> u, Constants<T> c) {

@@ -5,31 +5,29 @@
 // functions"; see primitives2.inl for how they are derived and why signs are taken as they are.
 // Included by all.inl once per SIMD target.
 
-/// A point folded into one sector of a dihedral group by reflections, with what turns a gradient back.
+/// A point folded into one sector of a dihedral group by reflections, and whether their number is odd: `parity` is
+/// negative then.
 template <class T>
 struct Folded {
   Point<T, 2> p;
-  Point<T, 2> x_axis;  ///< image of (1, 0) under the fold
-  T parity;            ///< determinant of the fold, +-1
+  T parity;
 };
 
-/// Keeps the side of the line through the origin on which `normal` points.
+/// Keeps the side of the line through the origin on which `normal` points; `twice` is twice that.
 template <class T>
-HWY_INLINE Folded<T> reflect(Folded<T> f, Point<T, 2> normal) {
-  const T two = Make<T>::set(2.0);
-  const T height = dot(f.p, normal);
-  const auto behind = height < zero<T>();
-  const T shift = min(height, zero<T>()) * two;
-  const T turn = select(behind, dot(f.x_axis, normal) * two, zero<T>());
-  return {{neg_mul_add(shift, normal.x, f.p.x), neg_mul_add(shift, normal.y, f.p.y)},
-          {neg_mul_add(turn, normal.x, f.x_axis.x), neg_mul_add(turn, normal.y, f.x_axis.y)},
-          select(behind, -f.parity, f.parity)};
+HWY_INLINE Folded<T> reflect(Folded<T> f, Point<T, 2> normal, Point<T, 2> twice) {
+  const T height = dot(f.p, twice);
+  return {neg_mul_add(normal, min(height, zero<T>()), f.p), times_sign(f.parity, height)};
 }
 
-/// The gradient at the unfolded point, given the gradient at the folded one.
+/// The gradient at p, given the gradient g at its folded image q. As complex numbers an even fold is w -> w q / p, an
+/// odd one w -> conj(w) q / conj(p): both ends of a fold tell what it was.
 template <class T>
-HWY_INLINE Point<T, 2> unfold(const Folded<T>& f, Point<T, 2> g) {
-  return {dot(g, f.x_axis), f.parity * mul_sub(f.x_axis.x, g.y, f.x_axis.y * g.x)};
+HWY_INLINE Point<T, 2> unfold(Point<T, 2> p, const Folded<T>& f, Point<T, 2> g) {
+  const T inverse = one<T>() / max(dot(p, p), Make<T>::set(0x1p-120));
+  const Point<T, 2> turn = {dot(g, f.p), times_sign(mul_sub(g.y, f.p.x, g.x * f.p.y), f.parity)};
+  const Point<T, 2> u = scaled(p, inverse);
+  return {mul_sub(u.x, turn.x, u.y * turn.y), mul_add(u.x, turn.y, u.y * turn.x)};
 }
 
 THALWEG_OP {
@@ -47,8 +45,9 @@ THALWEG_OP {
     if (p[2] > p[1]) return Complaint{"sharpness", "a number in [2, points]"};
     return std::nullopt;
   }
-  /// radius, edge from the tip (2), 1 / edge^2, normal (2), sign vectors at the tip (2) and at the inner corner (2),
-  /// then one reflection line per pair. Coordinates: first axis along the tip, second >= 0.
+  /// radius, unit vector (2) and length of the edge from the tip, normal (2), sign vectors at the tip (2) and at the
+  /// inner corner (2), then the normal of a reflection line and its double (4) per line. Coordinates: first axis along
+  /// the tip, second >= 0.
   static void derive(Numbers p, Constants64 & c) {
     const double sector = std::numbers::pi / p[1];
     const double slope = std::numbers::pi / p[2];
@@ -57,18 +56,9 @@ THALWEG_OP {
     const double ex = inner * std::cos(sector) - p[0];
     const double ey = inner * std::sin(sector);
     const double length = std::hypot(ex, ey);
-    const double nx = ey / length;
-    const double ny = -ex / length;
-    c = {p[0],
-         ex,
-         ey,
-         inverse_or_zero(length * length),
-         nx,
-         ny,
-         nx + 1,
-         ny,
-         nx + std::cos(sector),
-         ny + std::sin(sector)};
+    const double nx = along_edge(ey, length);
+    const double ny = -along_edge(ex, length);
+    c = {p[0], -ny, nx, length, nx, ny, nx + 1, ny, nx + std::cos(sector), ny + std::sin(sector)};
     double angle = sector;
     std::vector<double> lines;
     for (;; angle *= 2) {
@@ -76,26 +66,27 @@ THALWEG_OP {
       if (angle >= std::numbers::pi / 2) break;
     }
     for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
-      c.insert(c.end(), {std::sin(*line), -std::cos(*line)});
+      c.insert(c.end(), {std::sin(*line), -std::cos(*line), 2 * std::sin(*line), -2 * std::cos(*line)});
     }
   }
 
   template <class T>
-  static HWY_INLINE Field<T, 2> field(Point<T, 2> p, Constants<T> c) {
+  static HWY_INLINE Ray<T, 2> field(Point<T, 2> p, Constants<T> c) {
     // Tip frame: first axis +y, second axis +x, folded to second >= 0.
-    Folded<T> f = {{p.y, abs(p.x)}, {zero<T>(), sign_of(p.x)}, -sign_of(p.x)};
-    for (size_t i = 10; i < c.count; i += 2) f = reflect(f, {c[i], c[i + 1]});
+    Folded<T> f = {{p.y, abs(p.x)}, -p.x};
+    for (size_t i = 10; i < c.count; i += 4) f = reflect(f, {c[i], c[i + 1]}, {c[i + 2], c[i + 3]});
     const Point<T, 2> w = {f.p.x - c[0], f.p.y};
     const Point<T, 2> normal = {c[4], c[5]};
     const auto foot = foot_on_edge<T, 2>(w, {c[1], c[2]}, c[3]);
     const auto at_tip = foot.along <= zero<T>();
-    const auto at_inner = one<T>() <= foot.along;
+    const auto at_inner = c[3] <= foot.along;
     const Point<T, 2> judge =
         select(at_tip, Point<T, 2>{c[6], c[7]}, select(at_inner, Point<T, 2>{c[8], c[9]}, normal));
     const T distance = length(foot.residual);
     const T value = copysign(distance, dot(judge, foot.residual));
-    const Point<T, 2> corner = scaled(foot.residual, copysign(reciprocal_or_zero(distance), value));
-    return {value, unfold(f, select(either(at_tip, at_inner), corner, normal))};
+    const auto at_corner = either(at_tip, at_inner);
+    return {value, unfold(p, f, select(at_corner, times_sign(foot.residual, value), normal)),
+            select(at_corner, distance, one<T>())};
   }
 };
 
@@ -115,22 +106,23 @@ THALWEG_OP {
   }
 
   template <class T>
-  static HWY_INLINE Field<T, 2> field(Point<T, 2> p, Constants<T> c) {
+  static HWY_INLINE Ray<T, 2> field(Point<T, 2> p, Constants<T> c) {
     const Point<T, 2> q = {abs(p.x), p.y};
     const Point<T, 2> ray = {c[0], c[1]};
     const T r = length(p);
     const T arc = r - c[2];
     const T along = clamp(dot(q, ray), zero<T>(), c[2]);
-    const Point<T, 2> residual = q - scaled(ray, along);
+    const Point<T, 2> residual = neg_mul_add(ray, along, q);
     const T distance = length(residual);
     const T side = wedge_side(q, ray);
     const T edge = copysign(distance, side);
     const auto on_arc = either(edge <= arc, zero<T>() < c[3]);
     const auto on_flat = both(zero<T>() < along, along < c[2]);
-    const T inverse = reciprocal_or_zero(select(on_arc, r, distance));
-    const Point<T, 2> radial = scaled(select(on_arc, q, residual), select(on_arc, inverse, copysign(inverse, side)));
-    const Point<T, 2> g = select(on_arc, radial, select(on_flat, Point<T, 2>{ray.y, -ray.x}, radial));
-    return {select(on_arc, arc, edge), {g.x * sign_of(p.x), g.y}};
+    const Point<T, 2> from_edge = select(on_flat, Point<T, 2>{ray.y, -ray.x}, times_sign(residual, side));
+    const Point<T, 2> way = select(on_arc, q, from_edge);
+    return {select(on_arc, arc, edge),
+            {times_sign(way.x, p.x), way.y},
+            select(on_arc, r, select(on_flat, one<T>(), distance))};
   }
   template <class T>
   static HWY_INLINE T support(Point<T, 2> u, Constants<T> c) {
@@ -159,22 +151,25 @@ THALWEG_OP {
     const double r = p[1] + p[2];
     return box_bounds({-r, -r}, {r, r});
   }
+  /// sin and cos of the aperture, radius, thickness, an end (2). No point is past the ends of a closed ring.
   static void derive(Numbers p, Constants64 & c) {
-    c = {std::sin(p[0]), std::cos(p[0]), p[1], p[2], p[0] >= std::numbers::pi ? 1.0 : 0.0};
+    const bool closed = p[0] >= std::numbers::pi;
+    const double sine = closed ? 0.0 : std::sin(p[0]);
+    const double cosine = closed ? -1.0 : std::cos(p[0]);
+    c = {sine, cosine, p[1], p[2], sine * p[1], cosine * p[1]};
   }
 
   template <class T>
-  static HWY_INLINE Field<T, 2> field(Point<T, 2> p, Constants<T> c) {
+  static HWY_INLINE Ray<T, 2> field(Point<T, 2> p, Constants<T> c) {
     const Point<T, 2> q = {abs(p.x), p.y};
     const Point<T, 2> ray = {c[0], c[1]};
-    const auto past_end = both(zero<T>() < wedge_side(q, ray), c[4] <= zero<T>());
+    const auto past_end = zero<T>() < wedge_side(q, ray);
     // Beyond an end the distance to it counts, else the distance to the centre: one of the two is computed.
-    const Point<T, 2> from = select(past_end, q - scaled(ray, c[2]), q);
+    const Point<T, 2> from = select(past_end, Point<T, 2>{q.x - c[4], q.y - c[5]}, q);
     const T r = length(from);
-    const T radial = r - c[2];
-    const T inverse = reciprocal_or_zero(r);
-    const Point<T, 2> g = scaled(from, select(past_end, inverse, copysign(inverse, radial)));
-    return {select(past_end, r, abs(radial)) - c[3], {g.x * sign_of(p.x), g.y}};
+    const T radial = r - select(past_end, zero<T>(), c[2]);
+    const Point<T, 2> way = times_sign(from, radial);
+    return {abs(radial) - c[3], {times_sign(way.x, p.x), way.y}, r};
   }
 };
 
@@ -198,7 +193,7 @@ THALWEG_OP {
   }
 
   template <class T>
-  static HWY_INLINE Field<T, 2> field(Point<T, 2> p, Constants<T> c) {
+  static HWY_INLINE Ray<T, 2> field(Point<T, 2> p, Constants<T> c) {
     const Point<T, 2> q = {abs(p.x), p.y};
     const Point<T, 2> ray = {c[0], c[1]};
     const T r = length(p);
@@ -210,14 +205,16 @@ THALWEG_OP {
     const T distance = length(Point<T, 2>{across, past});
     const T end = copysign(distance, wedge_side(q, ray));
     const auto on_side = either(end <= radial, zero<T>() < c[4]);
-    const T inverse = reciprocal_or_zero(select(on_side, r, distance));
-    const T g_across = select(past <= zero<T>(), one<T>(), across * copysign(inverse, end));
+    const auto on_flat = past <= zero<T>();
+    const T way_across = select(on_flat, one<T>(), times_sign(across, end));
     // Inside, a corner is nearest only where a radius of 0 makes the end and the inner circle meet.
-    const T g_along = copysign(past, along) * copysign(inverse, end);
-    const Point<T, 2> g_end = {mul_add(g_across, ray.y, g_along * ray.x),
-                               neg_mul_add(g_across, ray.x, g_along * ray.y)};
-    const Point<T, 2> g = select(on_side, scaled(q, copysign(inverse, r - c[2])), g_end);
-    return {select(on_side, radial, end), {g.x * sign_of(p.x), g.y}};
+    const T way_along = times_sign(copysign(past, along), end);
+    const Point<T, 2> from_end = {mul_add(way_across, ray.y, way_along * ray.x),
+                                  neg_mul_add(way_across, ray.x, way_along * ray.y)};
+    const Point<T, 2> way = select(on_side, times_sign(q, r - c[2]), from_end);
+    return {select(on_side, radial, end),
+            {times_sign(way.x, p.x), way.y},
+            select(on_side, r, select(on_flat, one<T>(), distance))};
   }
 };
 
@@ -243,7 +240,7 @@ THALWEG_OP {
   }
 
   template <class T>
-  static HWY_INLINE Field<T, 2> field(Point<T, 2> p, Constants<T> c) {
+  static HWY_INLINE Ray<T, 2> field(Point<T, 2> p, Constants<T> c) {
     const Point<T, 2> q = {p.x, abs(p.y)};
     const Point<T, 2> from_b = {q.x - c[0], q.y};
     // The corner is closest in the cone beyond both circles' radii through it; there is none when they do not cross.
@@ -256,9 +253,8 @@ THALWEG_OP {
     const T outer = ra - c[1];
     const T inner = c[2] - rb;
     const auto on_a = either(at_corner, inner <= outer);
-    const T inverse = reciprocal_or_zero(select(on_a, ra, rb));
-    const Point<T, 2> g = scaled(select(on_a, from_a, from_b), select(on_a, inverse, -inverse));
-    return {select(at_corner, ra, max(outer, inner)), {g.x, g.y * sign_of(p.y)}};
+    const Point<T, 2> way = select(on_a, from_a, Point<T, 2>{-from_b.x, -from_b.y});
+    return {select(at_corner, ra, max(outer, inner)), {way.x, times_sign(way.y, p.y)}, select(on_a, ra, rb)};
   }
 };
 
@@ -280,7 +276,7 @@ THALWEG_OP {
                                                             .implicit = true}};
   static PrimitiveFacts facts(Numbers) { return {}; }
   static Bounds bounds(Numbers p) { return box_bounds({-0.4 * p[0], -p[0]}, {0.4 * p[0], p[0]}); }
-  /// The five strokes of the upper half as start, edge, 1 / edge^2; then the outline's levels.
+  /// The five strokes of the upper half as start, unit vector, length; then the outline's levels.
   static void derive(Numbers p, Constants64 & c) {
     static constexpr double kStrokes[5][4] = {{0, 1, 0.4, -0.4},     // roof
                                               {0.4, 0.2, 0, 0.4},    // side
@@ -288,14 +284,14 @@ THALWEG_OP {
                                               {0, 0.2, 0, 0.4},      // inner upright
                                               {0, 0.2, 0.2, -0.2}};  // diagonal
     for (const auto& s : kStrokes) {
-      const double square = (s[2] * s[2] + s[3] * s[3]) * p[0] * p[0];
-      c.insert(c.end(), {s[0] * p[0], s[1] * p[0], s[2] * p[0], s[3] * p[0], inverse_or_zero(square)});
+      const double length = std::hypot(s[2], s[3]);
+      c.insert(c.end(), {s[0] * p[0], s[1] * p[0], s[2] / length, s[3] / length, length * p[0]});
     }
     c.insert(c.end(), {0.4 * p[0], p[0], 0.2 * p[0]});
   }
 
   template <class T>
-  static HWY_INLINE Field<T, 2> field(Point<T, 2> p, Constants<T> c) {
+  static HWY_INLINE Ray<T, 2> field(Point<T, 2> p, Constants<T> c) {
     // Half a turn maps the S to itself; all strokes but the diagonal are symmetric in x as well.
     const T half_turn = sign_of(p.y);
     const T x = p.x * half_turn;
@@ -312,12 +308,11 @@ THALWEG_OP {
     const auto foot = foot_on_edge<T, 2>({x - c[20], y - c[21]}, {c[22], c[23]}, c[24]);
     const T squared = dot(foot.residual, foot.residual);
     const auto on_diagonal = squared < square;
-    const Point<T, 2> unfolded = {residual.x * sign_of(x), residual.y};
+    const Point<T, 2> unfolded = {times_sign(residual.x, x), residual.y};
     residual = select(on_diagonal, foot.residual, unfolded);
     const T distance = sqrt(min(square, squared));
     const T outline = select(c[25] <= y, c[26] - y, c[27] + y);
     const T value = copysign(distance, max(mirrored - c[25], mirrored - outline));
-    const T inverse = copysign(reciprocal_or_zero(distance), value) * half_turn;
-    return {value, scaled(residual, inverse)};
+    return {value, times_sign(residual, times_sign(value, half_turn)), distance};
   }
 };

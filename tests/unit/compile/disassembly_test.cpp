@@ -21,9 +21,9 @@ TEST(Disassembly, OfTheContractsExampleScene) {
   const auto tape = compile(scene->shape);
   ASSERT_TRUE(tape);
   EXPECT_EQ(tape->disassembly(),
-            "; 2D, 3 instructions, 1 registers, 1 positions, 25 constants\n"
-            "    0  acc = star(p0)                     -> r0   1000 550 300 -95.0962 54.9038 8.29345e-05 0.5 0.866025 "
-            "... (20)\n"
+            "; 2D, 3 instructions, 1 registers, 1 positions, 33 constants\n"
+            "    0  acc = star(p0)                     -> r0   1000 550 300 -0.866025 0.5 109.808 0.5 0.866025 "
+            "... (28)\n"
             "    1  acc = circle(p0)                           support 750 400 200\n"
             "    2  acc = smooth_union(r0, acc)                4 0.25\n");
 }
@@ -33,15 +33,14 @@ TEST(Disassembly, ShowsPositionsRegistersSwapsAndSupport) {
   const auto tape = compile(circle(3) - (onion(part, 0.1) | part));
   ASSERT_TRUE(tape);
   EXPECT_EQ(tape->disassembly(),
-            "; 2D, 8 instructions, 1 registers, 2 positions, 17 constants\n"
-            "    0  p1 = rigid(p0)                             0 0 0.968912 0.247404\n"
-            "    1  acc = box(p1)                      -> r0   support 0 0 1 2\n"
-            "    2  acc = circle(p0)                           support 0 0 1\n"
-            "    3  acc = smooth_union(r0, acc)        -> r0   2 0.5\n"
-            "    4  acc = onion(acc)                           0.1\n"
-            "    5  acc = union(acc, r0)               -> r0   \n"
-            "    6  acc = circle(p0)                           support 0 0 3\n"
-            "    7  acc = subtraction(acc, r0)                 \n");
+            "; 2D, 7 instructions, 1 registers, 1 positions, 15 constants\n"
+            "    0  acc = box(turned p0)               -> r0   support 0 0 0.968912 0.247404 1 2\n"
+            "    1  acc = circle(p0)                           support 0 0 1\n"
+            "    2  acc = smooth_union(r0, acc)        -> r0   2 0.5\n"
+            "    3  acc = onion(acc)                           0.1\n"
+            "    4  acc = union(acc, r0)               -> r0   \n"
+            "    5  acc = circle(p0)                           support 0 0 3\n"
+            "    6  acc = subtraction(acc, r0)                 \n");
 }
 
 TEST(Disassembly, ShowsTheLoadOfAValueUsedAgain) {

@@ -93,17 +93,19 @@ TEST(Compiler, LeavesNothingOfARotationThatAPrimitiveAbsorbs) {
   }
 }
 
-TEST(Compiler, UsesOneRigidInstructionForARotatedBox) {
-  const Tape tape = compiled(box(Vec2{1, 2}).rotate(0.3).translate(Vec2{1, 0}).rotate(0.4).scale(2));
-  EXPECT_EQ(ops_of(tape), (Names{"rigid", "box"}));
-  EXPECT_EQ(tape.position_count, 2);
-  EXPECT_EQ(tape.instructions[0].operand, 0);
-  EXPECT_EQ(tape.instructions[0].target, 1);
-  EXPECT_EQ(tape.instructions[1].operand, 1);
+TEST(Compiler, TurnsARotatedBoxWithinItsInstruction) {
+  const Shape shape = box(Vec2{1, 2}).rotate(0.3).translate(Vec2{1, 0}).rotate(0.4).scale(2);
+  const Tape tape = compiled(shape);
+  EXPECT_EQ(ops_of(tape), Names{"box"});
+  EXPECT_EQ(tape.position_count, 1);
+  EXPECT_NE(tape.instructions[0].flags & Instruction::kTurned, 0);
+  // Half sizes of 2 and 4, turned by 0.7; this point is 0.5 beyond the middle of a long side.
+  const double x = 2 * std::cos(0.4) + 2.5 * std::cos(0.7), y = 2 * std::sin(0.4) + 2.5 * std::sin(0.7);
+  EXPECT_NEAR(value(tape, x, y), 0.5, 1e-12);
 }
 
-TEST(Compiler, SharesARigidInstructionBetweenShapesAtTheSamePlace) {
-  const Tape tape = compiled((box(Vec2{1, 2}) | star(1, 5, 3) | cool_s()).rotate(0.3));
+TEST(Compiler, SharesARigidInstructionBetweenWarpsAtTheSamePlace) {
+  const Tape tape = compiled((mirror(box(Vec2{1, 2}), 0) | mirror(circle(1), 1)).rotate(0.3));
   std::size_t rigid = 0;
   for (const Instruction& in : tape.instructions) rigid += op_of(in) == "rigid" ? 1 : 0;
   EXPECT_EQ(rigid, 1U);

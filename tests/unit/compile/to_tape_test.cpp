@@ -78,9 +78,9 @@ TEST(RegisterAllocator, KeepsAValueUsedTwiceUntilItsLastUse) {
 }
 
 TEST(PositionAllocator, ReusesThePositionsThatAreDone) {
-  Shape all = box(Vec2{1, 2}).rotate(0.1);
-  for (int i = 2; i < 40; ++i) all = all | box(Vec2{1, 2}).rotate(0.1 * i);
-  EXPECT_EQ(compiled(all).position_count, 2);
+  Shape all = mirror(box(Vec2{1, 2}), 0).rotate(0.1);
+  for (int i = 2; i < 40; ++i) all = all | mirror(box(Vec2{1, 2}), 0).rotate(0.1 * i);
+  EXPECT_EQ(compiled(all).position_count, 3);
 }
 
 TEST(PositionAllocator, KeepsTheParentOfAMirroredPosition) {
