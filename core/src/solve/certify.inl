@@ -70,11 +70,7 @@ class Certifier {
     touched_ = arena.take<uint32_t>(std::max(room, wave_room) + kColumnPadding);
     hard_ = arena.take<uint32_t>(room);
     for (uint32_t** column : {&probing_, &asked_}) *column = arena.take<uint32_t>(wave_room);
-    if (wants_deepest()) {
-      deepest_first_.take(arena, far_points_);
-    } else {
-      depth_first_.take(arena, far_points_);
-    }
+    depth_first_.take(arena, far_points_);
     kernel_scratch_ = arena.take<float>(scratch_floats(*tile.tape));
     tolerance_ = static_cast<float>(limits_.tolerance);
     scratch.waiting.clear();
@@ -93,7 +89,7 @@ class Certifier {
     begin_search(lowest_points_.run(searched.count, spent, touched_, kernel_scratch_));
     while (refill()) {
       ++level_;
-      bound_children(tile_, domain_, state_.slack, open_, wave_, Detail::gradients, kernel_scratch_);
+      bound_children(tile_, domain_, state_.slack, open_, wave_, kernel_scratch_);
       take_incumbents();
       probe();
       close_cells();
@@ -133,11 +129,10 @@ class Certifier {
 
   /// The queries in touched_ are open as a whole.
   void begin_search(size_t open_count) {
-    if (!wants_deepest() && limits_.budget >= DepthFirst<Domain, false>::kLeastBudget) {
-      return search_in_lanes(depth_first_, open_count);
-    }
-    if (wants_deepest() && limits_.budget >= DepthFirst<Domain, true>::kLeastBudget) {
-      return search_in_lanes(deepest_first_, open_count);
+    if (limits_.budget >= DepthFirst<Domain>::kLeastBudget) {
+      depth_first_.run(tile_, domain_, state_, {touched_, open_count}, scratch_.waiting, kernel_scratch_);
+      for (const WaitingCell& cell : scratch_.waiting) progress_[cell.query].level = 0;
+      return;
     }
     for (size_t i = open_count; i-- > 0;) {
       const uint32_t q = touched_[i];
@@ -151,12 +146,6 @@ class Certifier {
       progress_[q].level = 0;
       state_.lower[q] = kInfinite;
     }
-  }
-
-  template <class Lanes>
-  void search_in_lanes(Lanes& lanes, size_t open_count) {
-    lanes.run(tile_, domain_, state_, {touched_, open_count}, scratch_.waiting, kernel_scratch_);
-    for (const WaitingCell& cell : scratch_.waiting) progress_[cell.query].level = 0;
   }
 
   /// What a wave may take for so many open cells of a query: their children, a far point each, a probe.
@@ -384,8 +373,7 @@ class Certifier {
   TileScratch& scratch_;
   Domain domain_;
   QueryState state_;
-  DepthFirst<Domain, false> depth_first_;
-  DepthFirst<Domain, true> deepest_first_;
+  DepthFirst<Domain> depth_first_;
   WaveColumns wave_;
   CellList open_;  ///< parents of the wave
   CellList next_;  ///< parents of the next one

@@ -28,19 +28,18 @@ HWY_BEFORE_NAMESPACE();
 namespace thalweg {
 namespace HWY_NAMESPACE {
 
-template <class Domain, bool kDeepest>
+template <class Domain>
 class DepthFirst {
  public:
   static constexpr size_t kChildren = Domain::kChildren;
   static constexpr size_t kCoordinates = Domain::kCoordinates;
   static constexpr size_t kAxes = Domain::kAxes;
-  /// Queries in flight: with two children each, two chunks of the widest enclosure; or a chunk of the widest value, for
-  /// the probes of deepest points.
-  static constexpr size_t kLanes = kDeepest ? 64 : 32;
-  static constexpr uint32_t kMostSplits = (kChildren == 2 ? 24 : 8) * (kDeepest ? 2 : 1);
+  /// Queries in flight: a chunk of the widest value, for the probes.
+  static constexpr size_t kLanes = 64;
+  static constexpr uint32_t kMostSplits = kChildren == 2 ? 48 : 16;
   static constexpr size_t kStackDepth = kMostSplits * (kChildren - 1) + 1;
   /// What a split takes, probe and far points included.
-  static constexpr uint32_t kCost = kDeepest ? 2 * kChildren + 1 : kChildren;
+  static constexpr uint32_t kCost = 2 * kChildren + 1;
   /// With less, the budget might end within the lanes or before the first wave after them.
   static constexpr uint32_t kLeastBudget = 5 + kCost * (kMostSplits + kStackDepth);
 
@@ -49,7 +48,7 @@ class DepthFirst {
     far_points_ = &far_points;
     wave_.take(arena, kChildren * kRoom, kCoordinates, Domain::kEdgeColumns);
     open_.take(arena, kRoom, kCoordinates);
-    if (kDeepest) probes_.take(arena, kRoom);
+    probes_.take(arena, kRoom);
     for (float** column : {&value_, &lower_, &stacked_lower_, &limit_, &ends_, &uv_[0], &uv_[1]}) {
       *column = arena.take<float>(kRoom);
     }
@@ -64,17 +63,17 @@ class DepthFirst {
   /// Searches for each query of a list from its root cell on. Open cells of those that are not decided go to `waiting`.
   void run(const QueryTile& tile, const Domain& domain, QueryState& state, std::span<const uint32_t> queries,
            std::vector<WaitingCell>& waiting, float* scratch) {
-    const Detail detail = kDeepest ? Detail::gradients : tile.tape->has_support ? Detail::enclosures : Detail::none;
+    const bool deepest = tile.limits->goal == Goal::deepest;
     size_t next = 0;
     open_.count = 0;
     while (next < queries.size() && open_.count < kLanes) begin(state, queries[next++], open_.count++);
     while (open_.count > 0) {
-      bound_children(tile, domain, state.slack, open_, wave_, detail, scratch);
+      bound_children(tile, domain, state.slack, open_, wave_, scratch);
       // The last vector's lanes beyond the queries repeat one of them; their stacks must stay within bounds.
       std::fill(depth_ + open_.count, depth_ + wave_.stride, 0);
       for (size_t i = 0; i < open_.count; i += vector_lanes()) improve(i);
-      if constexpr (kDeepest) look_around(tile, domain, state, scratch);
-      for (size_t i = 0; i < open_.count; i += vector_lanes()) advance(state, i);
+      look_around(tile, domain, state, scratch);
+      for (size_t i = 0; i < open_.count; i += vector_lanes()) advance(state, i, deepest);
       for (size_t i = open_.count; i-- > 0;) {
         ++splits_[i];
         if (ends_[i] == 0 && splits_[i] < kMostSplits) continue;
@@ -138,8 +137,9 @@ class DepthFirst {
   void look_around(const QueryTile& tile, const Domain& domain, const QueryState& state, float* scratch) {
     const F32 d;
     const hn::RebindToUnsigned<F32> du;
-    const auto tolerance = hn::Set(d, static_cast<float>(tile.limits->tolerance));
-    const auto gain = hn::Mul(tolerance, hn::Set(d, kProbeGain));
+    const bool deepest = tile.limits->goal == Goal::deepest;
+    const auto tolerance = hn::Set(d, deepest ? static_cast<float>(tile.limits->tolerance) : kInfinite);
+    const auto gain = hn::Set(d, deepest ? kProbeGain * static_cast<float>(tile.limits->tolerance) : 0);
     probes_.look(domain, open_, wave_);
     probes_.evaluate(tile, open_.count, scratch);
     for (size_t i = 0; i < open_.count; i += hn::Lanes(d)) {
@@ -163,7 +163,7 @@ class DepthFirst {
   }
 
   /// Takes what the children of one vector of lanes have shown, and picks the lanes' next cells.
-  HWY_INLINE void advance(const QueryState& state, size_t i) {
+  HWY_INLINE void advance(const QueryState& state, size_t i, bool deepest) {
     const F32 d;
     const auto zero = hn::Zero(d);
     const auto infinite = hn::Set(d, kInfinite);
@@ -186,7 +186,7 @@ class DepthFirst {
     const auto goes_on = choose_next(i);
     hn::StoreU(stacked, d, stacked_lower_ + i);
     // A witness ends the search for a verdict, and leaves cells open.
-    const auto ends = kDeepest ? hn::Lt(zero, zero) : witness;
+    const auto ends = deepest ? hn::Lt(zero, zero) : witness;
     hn::StoreU(hn::IfThenElse(ends, hn::Min(closed, stacked), closed), d, lower_ + i);
     const auto decided = hn::Or(ends, hn::Not(goes_on));
     const auto beyond = hn::IfThenElseZero(too_small, hn::Set(d, kBeyondFloat32));

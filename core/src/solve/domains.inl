@@ -11,8 +11,6 @@
 #define THALWEG_SOLVE_DOMAINS_INL
 #endif
 
-#include <hwy/cache_control.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -108,10 +106,6 @@ HWY_INLINE void transpose_rows(const float* rows, V32 (&columns)[Width]) {
   }
 }
 
-/// Rows that wave 0 works on at a time: their columns stay in the first-level cache.
-inline constexpr size_t kBlockRows = 512;
-inline constexpr size_t kLineFloats = 16;
-
 /// Row-major rows of `Width` numbers to columns, with the largest magnitude of each row; rows with a number that is
 /// not finite or too large are marked and replaced by zeros.
 template <size_t Width>
@@ -127,8 +121,6 @@ HWY_INLINE void load_rows(const QueryTile& tile, float* const* columns, float* l
       std::copy_n(rows, (tile.count - i) * Width, tail);
       rows = tail;
     }
-    // The rows of the next block, while this one is worked on.
-    for (size_t line = 0; line < Width * lanes; line += kLineFloats) hwy::Prefetch(rows + kBlockRows * Width + line);
     V32 x[Width];
     transpose_rows(rows, x);
     auto most = hn::Zero(d);

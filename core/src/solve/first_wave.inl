@@ -20,6 +20,9 @@ HWY_BEFORE_NAMESPACE();
 namespace thalweg {
 namespace HWY_NAMESPACE {
 
+/// Rows that wave 0 works on at a time: their columns stay in the first-level cache.
+inline constexpr size_t kBlockRows = 512;
+
 /// A part of a slack as a float: it is a claim.
 inline float rounded_up(double x) { return static_cast<float>(x * (1 + 1e-6)); }
 

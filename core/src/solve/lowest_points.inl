@@ -104,7 +104,7 @@ class LowestPoints {
       tile_.kernels->value(*tile_.tape, wave_->centre, count, wave_->value, scratch);
       std::copy_n(state_.lower + first, count, wave_->lower);
     } else {
-      evaluate_cells<Domain>(tile_, *wave_, count, Detail::gradients, scratch);
+      evaluate_cells<Domain>(tile_, *wave_, count, scratch);
     }
     take_lowest_points(run);
     if constexpr (!Domain::kIsBall) {

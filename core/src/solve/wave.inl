@@ -34,42 +34,26 @@ void pad_parents(CellList& open, WaveColumns& wave) {
   }
 }
 
-/// What is asked of children besides values at their centres and the bounds of the Lipschitz constant.
-enum class Detail : uint8_t {
-  none,
-  enclosures,  ///< bounds by what the shape's parts are known to be; about twice the price
-  gradients,   ///< and the gradients
-};
-
-/// Values at the first `count` cells of a wave, and lower bounds.
+/// Values and gradients at the first `count` cells of a wave, and lower bounds by what the shape's parts are known to
+/// be.
 template <class Domain>
-void evaluate_cells(const QueryTile& tile, WaveColumns& wave, size_t count, Detail detail, float* scratch) {
-  const F32 d;
-  if (detail != Detail::none) {
-    CellColumns cells;
-    cells.reach = wave.reach;
-    for (size_t i = 0; i < Domain::kEdgeColumns; ++i) cells.edges[i] = wave.edges[i];
-    cells.is_box = Domain::kIsBall;
-    if (detail == Detail::gradients) std::copy_n(wave.gradient, 3, cells.gradient);
-    tile.kernels->enclosure(*tile.tape, wave.centre, cells, count, wave.lower, wave.value, scratch);
-    return;
-  }
-  tile.kernels->value(*tile.tape, wave.centre, count, wave.value, scratch);
-  const auto lipschitz = hn::Set(d, static_cast<float>(tile.tape->facts.lipschitz));
-  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const auto f = hn::LoadU(d, wave.value + i);
-    hn::StoreU(hn::NegMulAdd(lipschitz, hn::LoadU(d, wave.reach + i), f), d, wave.lower + i);
-  }
+void evaluate_cells(const QueryTile& tile, WaveColumns& wave, size_t count, float* scratch) {
+  CellColumns cells;
+  cells.reach = wave.reach;
+  std::copy_n(wave.edges, Domain::kEdgeColumns, cells.edges);
+  std::copy_n(wave.gradient, 3, cells.gradient);
+  cells.is_box = Domain::kIsBall;
+  tile.kernels->enclosure(*tile.tape, wave.centre, cells, count, wave.lower, wave.value, scratch);
 }
 
 /// Splits the open cells into the wave's columns: bounds come out less the queries' slack.
 template <class Domain>
 void bound_children(const QueryTile& tile, const Domain& domain, const float* slack_of, CellList& open,
-                    WaveColumns& wave, Detail detail, float* scratch) {
+                    WaveColumns& wave, float* scratch) {
   const F32 d;
   pad_parents<Domain>(open, wave);
   domain.split(open, wave);
-  evaluate_cells<Domain>(tile, wave, Domain::kChildren * wave.stride, detail, scratch);
+  evaluate_cells<Domain>(tile, wave, Domain::kChildren * wave.stride, scratch);
   for (size_t i = 0; i < open.count; i += hn::Lanes(d)) {
     const auto slack = gather(slack_of, open.query + i);
     auto best = hn::Set(d, kInfinite);
