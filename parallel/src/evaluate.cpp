@@ -66,6 +66,7 @@ class EvaluateTask final : public TileTask, public OrderedBatch::Answer {
       if (worker == nullptr) continue;
       total.rows += worker->summary.rows;
       total.bad_rows += worker->summary.bad_rows;
+      total.undefined_rows += worker->summary.undefined_rows;
       total.evaluations += worker->summary.evaluations;
     }
     total.cancelled = !complete;
@@ -120,9 +121,8 @@ class EvaluateTask final : public TileTask, public OrderedBatch::Answer {
     float* scratch = worker.arena.take<float>(scratch_floats(tape_));
     float* value = worker.arena.take<float>(rows.count);
     float* gradient = out_.gradient == nullptr ? nullptr : worker.arena.take<float>(rows.count * d_);
-    const std::size_t bad_rows = target_.kernels->rows(rows.tape, gathered, rows.count, value, gradient, scratch);
-    worker.summary.bad_rows += bad_rows;
-    worker.summary.evaluations += rows.count - bad_rows;
+    const std::size_t unanswered = target_.kernels->rows(rows.tape, gathered, rows.count, value, gradient, scratch);
+    count_rows(rows, unanswered, worker.summary);
     for (std::size_t i = 0; i < rows.count; ++i) {
       const std::size_t row = rows[i];
       if (out_.value != nullptr) out_.value[row] = value[i];
@@ -135,12 +135,23 @@ class EvaluateTask final : public TileTask, public OrderedBatch::Answer {
     float* scratch = worker.arena.take<float>(scratch_floats(tape_));
     float* value = out_.value == nullptr ? nullptr : out_.value + rows.begin;
     float* gradient = out_.gradient == nullptr ? nullptr : out_.gradient + rows.begin * d_;
-    const std::size_t bad_rows =
+    const std::size_t unanswered =
         target_.kernels->rows(tape_, points_.rows + rows.begin * d_, rows.count, value, gradient, scratch);
-    worker.summary.bad_rows += bad_rows;
-    worker.summary.evaluations += rows.count - bad_rows;
+    count_rows(rows, unanswered, worker.summary);
     if (out_.evaluations == nullptr) return;
     for (std::size_t i = 0; i < rows.count; ++i) out_.evaluations[rows[i]] = is_bad(rows[i]) ? 0 : 1;
+  }
+
+  /// Rows that were not answered are bad, but for those where a formula is undefined.
+  void count_rows(const Rows& rows, std::size_t unanswered, EvaluateSummary& summary) const {
+    std::size_t bad = unanswered;
+    if (tape_.has_formulas && unanswered > 0) {
+      bad = 0;
+      for (std::size_t i = 0; i < rows.count; ++i) bad += is_bad(rows[i]) ? 1 : 0;
+    }
+    summary.bad_rows += bad;
+    summary.undefined_rows += unanswered - bad;
+    summary.evaluations += rows.count - bad;
   }
 
   void run_columns(const Rows& rows, Worker& worker) const {
@@ -204,10 +215,14 @@ class EvaluateTask final : public TileTask, public OrderedBatch::Answer {
   }
 
   void store(std::size_t row, std::size_t i, const TileColumns& tile, EvaluateSummary& summary) const {
-    const bool bad = is_bad(row);
+    bool bad = is_bad(row);
     summary.bad_rows += bad ? 1 : 0;
     summary.evaluations += bad ? 0 : tile.evaluations[i];
     if (out_.evaluations != nullptr) out_.evaluations[row] = bad ? 0 : tile.evaluations[i];
+    if (!bad && out_.value != nullptr && std::isnan(tile.value[i])) {
+      ++summary.undefined_rows;
+      bad = true;
+    }
     if (out_.value != nullptr) out_.value[row] = bad ? kNan : tile.value[i];
     for (std::size_t axis = 0; axis < d_; ++axis) {
       out_.gradient[row * d_ + axis] = bad ? kNan : tile.gradient[axis][i];

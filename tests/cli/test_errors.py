@@ -72,15 +72,6 @@ class Arguments(CliCase):
         for command in ("info", "ops", "eval", "collide", "render"):
             self.assertIn(b"Usage:", self.succeed(command, "--help").stdout)
 
-    def test_what_is_not_supported_yet_says_so(self):
-        collide = ("collide", "circle.json", "-o", "out.npz")
-        for arguments in [
-            ("collide", "circle.vm", "--triangles", "points.npy", "-o", "out.npz"),
-            ("info", "prospero.vm"),
-        ]:
-            with self.subTest(arguments=arguments):
-                self.assertIn("not supported yet", self.refuse(*arguments))
-
 
 class Files(CliCase):
     def setUp(self):

@@ -93,9 +93,9 @@ class Render(CliCase):
         self.assertGreater(top[0], top[2], "outside is warm, and above")
         self.assertGreater(bottom[2], bottom[0], "inside is blue, and below")
 
-    def test_an_unbounded_shape_asks_for_bounds(self):
-        line = self.refuse("render", "plane.json", "-o", "out.png")
-        self.assertIn(": --bounds: ", line)
+    def test_an_unbounded_shape_is_shown_around_the_origin(self):
+        done = self.succeed("render", "plane.json", "-o", "out.png", "--size", "10", "10", "--json")
+        self.assertEqual([-1, -1, 1, 1], json.loads(done.stdout)["bounds"])
 
     def test_the_default_bounds_are_those_of_the_shape_and_a_tenth(self):
         done = self.succeed("render", "circle.json", "-o", "out.png", "--size", "10", "10", "--json")

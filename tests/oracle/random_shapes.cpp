@@ -94,6 +94,7 @@ std::vector<int> rows(int dimension, bool primitives) {
   const auto table = op_table();
   for (std::size_t i = 0; i < table.size(); ++i) {
     const bool fits = table[i].dimension == dimension || table[i].dimension == 0;
+    if (table[i].kind == OpKind::formula) continue;
     if (fits && (table[i].kind == OpKind::primitive) == primitives) found.push_back(static_cast<int>(i));
   }
   return found;

@@ -46,7 +46,7 @@ std::vector<Drawn> drawn_operators(std::uint64_t seed, std::size_t each) {
   std::vector<Drawn> drawn;
   const auto table = op_table();
   for (std::size_t op = 0; op < table.size(); ++op) {
-    if (table[op].kind == OpKind::primitive) continue;
+    if (table[op].kind == OpKind::primitive || table[op].kind == OpKind::formula) continue;
     for (std::size_t i = 0; i < each; ++i) {
       Random random(++seed);
       const int dimension = table[op].dimension != 0 ? table[op].dimension : 2 + static_cast<int>(i % 2);

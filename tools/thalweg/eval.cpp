@@ -92,7 +92,11 @@ ExitCode run_eval(const EvalOptions& options, const Globals& globals) {
   write_columns(output, options.output, result.list(options, points));
   output.commit();
 
-  Json json = {{"command", "eval"}, {"scene", options.scene}, {"rows", count}, {"bad_rows", summary.bad_rows}};
+  Json json = {{"command", "eval"},
+               {"scene", options.scene},
+               {"rows", count},
+               {"bad_rows", summary.bad_rows},
+               {"undefined_rows", summary.undefined_rows}};
   if (options.with_gradient) {
     json["gradient"] = name(options.gradient.strategy);
     json["gradient_offset"] = to_string(options.gradient.offset);
@@ -103,6 +107,7 @@ ExitCode run_eval(const EvalOptions& options, const Globals& globals) {
   Sheet sheet;
   sheet.add("points", grouped(count));
   sheet.add("bad rows", grouped(summary.bad_rows));
+  if (summary.undefined_rows > 0) sheet.add("undefined rows", grouped(summary.undefined_rows));
   sheet.add("evaluations", grouped(summary.evaluations));
   sheet.add("elapsed", run_text(globals, count, seconds, "points"));
   print_report(globals, output.is_stdout(), json, sheet.text());

@@ -150,7 +150,9 @@ std::string scene_text(const InfoOptions& options, const Shape& shape, const Tap
   sheet.add("bounds", bounds_text(facts.bounds, facts.dimension));
   sheet.add("tape", fmt::format("{} instructions, {} registers, {} positions, {} constants", tape.instructions.size(),
                                 tape.register_count, tape.position_count, tape.constants.size()));
-  sheet.add("slack", fmt::format("{:.3g} + {:.3g} m, m the largest coordinate of a query", tape.slack.a, tape.slack.b));
+  sheet.add("slack", tape.has_formulas ? "of each value, by intervals"
+                                       : fmt::format("{:.3g} + {:.3g} m, m the largest coordinate of a query",
+                                                     tape.slack.a, tape.slack.b));
   std::string text = sheet.text() + '\n' + shapes_text(NodeList(shape));
   if (options.tape) text += '\n' + tape.disassembly() + '\n';
   return text;

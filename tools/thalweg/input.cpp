@@ -13,6 +13,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstddef>
+#include <filesystem>
 #include <system_error>
 
 #include "failure.h"
@@ -87,11 +88,19 @@ bool has_extension(std::string_view path, std::string_view extension) {
 }
 
 Scene read_scene(const std::string& path) {
-  if (has_extension(path, ".vm")) {
-    refuse(input_name(path), "format", "a JSON scene", "a .vm program, which is not supported yet");
-  }
   const std::string name = input_name(path);
-  return unwrap(parse_scene(read_input(path), name), name, "/");
+  const std::string text = read_input(path);
+  if (has_extension(path, ".vm")) return unwrap(parse_program(text, name), name, "1:1");
+  // A file that a node names lies beside the scene.
+  const auto read_text = [&](const std::string& named) -> Result<std::string> {
+    const std::filesystem::path folder = path == "-" ? "." : std::filesystem::path(path).parent_path();
+    try {
+      return read_input(((folder.empty() ? "." : folder) / named).string());
+    } catch (const Failure& failure) {
+      return failure.error();
+    }
+  };
+  return unwrap(parse_scene(text, name, read_text), name, "/");
 }
 
 }  // namespace thalweg::cli

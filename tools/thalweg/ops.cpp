@@ -58,7 +58,15 @@ Json ops_json() {
                    {"note", row.note},
                    {"rounding", row.rounding}});
   }
-  return {{"ops", std::move(ops)}};
+  Json functions = Json::array();
+  for (const FunctionRow& row : function_table()) {
+    functions.push_back({{"name", row.name},
+                         {"opcode", row.opcode.empty() ? Json(nullptr) : Json(row.opcode)},
+                         {"operands", row.operands},
+                         {"meaning", row.meaning},
+                         {"ulps", row.ulps}});
+  }
+  return {{"ops", std::move(ops)}, {"functions", std::move(functions)}};
 }
 
 std::string parameters_text(const OpRow& row) {
@@ -80,7 +88,13 @@ std::string ops_text() {
                row.dimension == 0 ? "any" : fmt::format("{}", row.dimension), parameters_text(row),
                std::string(row.exactness), std::string(row.note)});
   }
-  return table.text();
+  Table functions({"function", "opcode", "operands", "greatest error", "meaning"});
+  for (const FunctionRow& row : function_table()) {
+    functions.add({std::string(row.name), row.opcode.empty() ? "-" : std::string(row.opcode),
+                   fmt::format("{}", row.operands), row.ulps == 0 ? "none" : fmt::format("{} ulps", row.ulps),
+                   std::string(row.meaning)});
+  }
+  return table.text() + "\n" + functions.text();
 }
 
 ExitCode run_ops(const OpsOptions& options, const Globals& globals) {

@@ -126,7 +126,9 @@ Command add_render(CLI::App& app, const Globals& globals) {
            options->gradient.strategy, &parse_gradient)
       ->type_name("STRATEGY");
   add_gradient_offset(*command, options->gradient.offset);
-  add_numbers(*command, {"--bounds", "x0 y0 x1 y1; default: those of the shape and 10 % more"}, options->bounds, 4);
+  add_numbers(*command,
+              {"--bounds", "x0 y0 x1 y1; default: those of the shape and 10 % more, -1 -1 1 1 for one without"},
+              options->bounds, 4);
   add_numbers(*command, {"--size", "Width and height in pixels; default: 1280 along the longer side"}, options->size,
               2);
   add_numbers(*command, {"--slice", "z of the plane that is shown of a scene in space; default 0"}, options->slice, 1);

@@ -19,12 +19,13 @@ constexpr double kMargin = 0.1;
 
 std::array<double, 4> shape_bounds(const Facts& facts) {
   const Bounds& bounds = facts.bounds;
+  // What has no bounds, as a formula, is shown around the origin.
+  if (!bounds.empty(facts.dimension) && !bounds.finite(2)) return {-1, -1, 1, 1};
   const bool known = !bounds.empty(2) && bounds.finite(2);
   const double width = bounds.hi[0] - bounds.lo[0];
   const double height = bounds.hi[1] - bounds.lo[1];
   if (!known || !(std::max(width, height) > 0)) {
-    const std::string found = bounds.empty(facts.dimension) ? "an empty shape" : "an unbounded shape";
-    refuse(kCommandLine, "--bounds", "x0 y0 x1 y1 for this scene", known ? "a shape without extent" : found);
+    refuse(kCommandLine, "--bounds", "x0 y0 x1 y1 for this scene", known ? "a shape without extent" : "an empty shape");
   }
   const double margin = kMargin * std::max(width, height);
   return {bounds.lo[0] - margin, bounds.lo[1] - margin, bounds.hi[0] + margin, bounds.hi[1] + margin};

@@ -14,6 +14,8 @@ namespace thalweg {
 
 enum class OpKind : std::uint8_t {
   primitive,  ///< a field of its own
+  formula,    ///< a field given by a text; compiled to scalar ops
+  scalar,     ///< an operation on numbers, within a formula
   combine,    ///< folds the fields of several operands, left to right
   map,        ///< changes the value of one operand
   place,      ///< a similarity: moves, turns or scales one operand
@@ -31,6 +33,7 @@ enum class Quantity : std::uint8_t {
   count,       ///< whole number
   choice,      ///< one of a few words, stored as its index
   quaternion,  ///< w, x, y, z; normalised on reading
+  text,        ///< characters, kept by the node itself
 };
 
 struct OpParameter {
@@ -56,8 +59,18 @@ struct OpRow {
   double rounding = 0;  ///< proven |float32 value - real value| <= rounding * eps * (size of the operation)
 };
 
-/// Every op, in the order of the opcodes.
+/// Every op that a scene's node can have, in the order of the opcodes.
 [[nodiscard]] std::span<const OpRow> op_table();
+
+/// What a formula is made of.
+struct FunctionRow {
+  std::string_view name;    ///< in the text of an `expression`
+  std::string_view opcode;  ///< in a `.vm` program; empty where it has none
+  int operands = 0;
+  std::string_view meaning;
+  double ulps = 0;  ///< |float32 value - real value| is at most this many units in the last place
+};
+[[nodiscard]] std::span<const FunctionRow> function_table();
 [[nodiscard]] std::string_view name(OpKind kind);
 [[nodiscard]] std::string_view name(Quantity quantity);
 

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,7 @@ namespace builder {
 inline constexpr int kOfOperands = 0;  ///< the dimension is that of the operands
 [[nodiscard]] Shape made(std::string_view op, int dimension, std::span<const double> numbers,
                          std::vector<Shape> of = {}, int variant = 0);
+[[nodiscard]] Shape made_formula(std::string_view op, std::string_view text, int dimension);
 }  // namespace builder
 
 /// circle: exact.
@@ -346,6 +348,18 @@ inline constexpr int kOfOperands = 0;  ///< the dimension is that of the operand
   std::vector<double> numbers;
   numbers.push_back(axis);
   return builder::made("mirror", builder::kOfOperands, numbers, {of});
+}
+
+/// expression: sign only; a formula over x, y, z, as in sqrt(x*x + y*y) - 1.
+///   dimension: 2, 3, or 0: 3 if the formula depends on z, else 2
+[[nodiscard]] inline Shape expression(std::string_view text, int dimension = 0) {
+  return builder::made_formula("expression", text, dimension);
+}
+
+/// vm: sign only; a program in the text form of .vm files.
+///   dimension: 2, 3, or 0: 3 if the formula depends on z, else 2
+[[nodiscard]] inline Shape vm(std::string_view text, int dimension = 0) {
+  return builder::made_formula("vm", text, dimension);
 }
 
 }  // namespace thalweg

@@ -5,6 +5,7 @@
 // arity or dimension is an Error whose place is the JSON pointer of what is wrong.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -17,8 +18,16 @@ struct Scene {
   int dimension = 2;
 };
 
-/// Parses a scene from memory. `file` is only used to name the text in errors.
-[[nodiscard]] Result<Scene> parse_scene(std::string_view text, std::string_view file);
+/// The text of a file that a scene names, by its path as the scene has it; of an error only `expected` and `found`
+/// count.
+using ReadText = std::function<Result<std::string>(const std::string& path)>;
+
+/// Parses a scene from memory. `file` is only used to name the text in errors. Nodes that name a file are refused
+/// without `read_text`.
+[[nodiscard]] Result<Scene> parse_scene(std::string_view text, std::string_view file, const ReadText& read_text = {});
+
+/// A program in the form of `.vm` files as a scene: of dimension 3 if its result depends on z, else 2.
+[[nodiscard]] Result<Scene> parse_program(std::string_view text, std::string_view file);
 
 /// The scene file text of a shape: `{"thalweg": 1, "dimension": d, "shape": ...}`.
 [[nodiscard]] std::string scene_text(const Shape& shape);

@@ -20,6 +20,10 @@
 
 namespace thalweg {
 
+namespace formula {
+struct Formula;
+}
+
 struct Vec2 {
   double x = 0, y = 0;
 };
@@ -73,6 +77,10 @@ class Shape {
   /// The same by row of the op table.
   static Result<Shape> make(int op_index, std::span<const double> parameters, std::vector<Shape> of = {});
 
+  /// A leaf whose field is a formula: `op` is "expression" or "vm". Dimension 0: 3 if the formula depends on z, else 2.
+  /// The error's place is line:column of the text.
+  static Result<Shape> formula(std::string_view op, int dimension, std::string_view text);
+
   /// Nodes may be nested this deep.
   static constexpr int kDeepest = 5000;
 
@@ -82,7 +90,9 @@ class Shape {
   [[nodiscard]] int op_index() const;         ///< its row in the op table
   [[nodiscard]] std::span<const double> parameters() const;
   [[nodiscard]] std::span<const Shape> operands() const;
-  [[nodiscard]] const void* identity() const;  ///< equal for handles to the same node
+  [[nodiscard]] std::string_view text() const;            ///< of a formula, else empty
+  [[nodiscard]] const formula::Formula* formula() const;  ///< of a formula, else null
+  [[nodiscard]] const void* identity() const;             ///< equal for handles to the same node
 
   /// A box that holds {f <= level}; Facts::bounds is the one at level 0.
   [[nodiscard]] Bounds level_bounds(double level) const;

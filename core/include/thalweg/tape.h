@@ -18,6 +18,8 @@ namespace thalweg {
 ///   primitive  acc = field of op at position[operand], moved and, when kTurned is set, turned
 ///   combine    acc = op(register[operand], acc), the other way round when kSwapped is set
 ///   map        acc = op(acc)
+///   scalar     acc = op(acc), op(register[operand], acc) as combine, op(constant, acc) when kImmediate is set;
+///              or a coordinate of position[operand], or a constant
 ///   load       acc = register[operand]
 ///   keep       leaves the accumulator as it is; in shortened tapes, where it is stored
 ///   warp       position[target] = op(position[operand]); the accumulator is left alone
@@ -38,7 +40,8 @@ struct Instruction {
   static constexpr std::uint16_t kSwapped = 4;  ///< the accumulator is the first operand
   static constexpr std::uint16_t kTurned =
       8;  ///< a primitive's constants begin with those of `rigid`, not a translation
-  static constexpr std::uint16_t kWarped = 16;  ///< a primitive at a position other than the query point
+  static constexpr std::uint16_t kWarped = 16;     ///< a primitive at a position other than the query point
+  static constexpr std::uint16_t kImmediate = 32;  ///< the other operand is the first constant, not a register
 };
 static_assert(sizeof(Instruction) == 16);
 
@@ -54,11 +57,13 @@ struct Tape {
   std::vector<float> constants;     ///< derived once from the parameters, in double, then rounded
   std::vector<double> constants64;  ///< the same before rounding, for evaluation in double
   int register_count = 0;
-  int position_count = 1;    ///< position 0 is the query point
-  Facts facts;               ///< of the root
-  Affine slack;              ///< |float32 value - f| <= slack(m); f in double has 2^-29 of it
-  Affine search_slack;       ///< the same for bounds over cells: value, centre, reach and their arithmetic
-  bool has_support = false;  ///< some primitive has a support function, so enclosures beat f - L r
+  int position_count = 1;     ///< position 0 is the query point
+  Facts facts;                ///< of the root
+  Affine slack;               ///< |float32 value - f| <= slack(m); f in double has 2^-29 of it; infinite with formulas
+  Affine search_slack;        ///< the same for bounds over cells: value, centre, reach and their arithmetic
+  Affine enclosure_slack;     ///< the same for intervals, which carry a formula's own rounding: finite
+  bool has_formulas = false;  ///< there are scalar instructions: only intervals prove anything
+  bool has_support = false;   ///< some primitive has a support function, so enclosures beat f - L r
 
   /// The program, one instruction a line.
   [[nodiscard]] std::string disassembly() const;

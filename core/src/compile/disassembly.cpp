@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // The printed form of a tape: one instruction a line, what it does to the accumulator, and its constants.
+#include <algorithm>
 #include <cstdio>
 
-#include "thalweg/op_table.h"
+#include "ops/registry.h"
 #include "thalweg/tape.h"
 
 namespace thalweg {
@@ -12,13 +13,17 @@ namespace {
 
 std::string constants_text(const Tape& tape, const Instruction& in) {
   static constexpr std::uint32_t kShown = 8;
+  // Of a formula's constant the value; its bounds follow.
+  const ops::Entry* const op = in.op < Instruction::kKeep ? &ops::registry()[in.op] : nullptr;
+  const bool is_constant = op != nullptr && op->row.kind == OpKind::scalar && op->row.name != "coordinate";
+  const std::uint32_t count = is_constant ? std::min(in.constant_count, 1U) : in.constant_count;
   std::string text;
-  for (std::uint32_t i = 0; i < in.constant_count && i < kShown; ++i) {
+  for (std::uint32_t i = 0; i < count && i < kShown; ++i) {
     char number[32];
     std::snprintf(number, sizeof number, "%s%.6g", i == 0 ? "" : " ", tape.constants64[in.constants + i]);
     text += number;
   }
-  if (in.constant_count > kShown) text += " ... (" + std::to_string(in.constant_count) + ")";
+  if (count > kShown) text += " ... (" + std::to_string(in.constant_count) + ")";
   return text;
 }
 
@@ -29,14 +34,27 @@ std::string joined(const Parts&... parts) {
   return text;
 }
 
+std::string scalar_action(const ops::Entry& op, const Instruction& in) {
+  const std::string operand = std::to_string(in.operand);
+  const bool is_immediate = (in.flags & Instruction::kImmediate) != 0;
+  const std::string other = is_immediate ? "c" : "r" + operand;
+  if (op.operands == 0)
+    return op.row.name == "constant" ? "acc = c" : joined("acc = ", op.row.name, "(p", operand, ")");
+  if (op.operands == 1) return joined("acc = ", op.row.name, "(acc)");
+  return (in.flags & Instruction::kSwapped) != 0 ? joined("acc = ", op.row.name, "(acc, ", other, ")")
+                                                 : joined("acc = ", op.row.name, "(", other, ", acc)");
+}
+
 std::string action(const Instruction& in) {
   const std::string operand = std::to_string(in.operand);
   if (in.op == Instruction::kLoad) return joined("acc = r", operand);
   if (in.op == Instruction::kKeep) return "acc";
-  const OpRow& row = op_table()[in.op];
+  const OpRow& row = ops::registry()[in.op].row;
   switch (row.kind) {
     case OpKind::primitive:
       return joined("acc = ", row.name, (in.flags & Instruction::kTurned) != 0 ? "(turned p" : "(p", operand, ")");
+    case OpKind::scalar:
+      return scalar_action(ops::registry()[in.op], in);
     case OpKind::combine:
       return (in.flags & Instruction::kSwapped) != 0 ? joined("acc = ", row.name, "(acc, r", operand, ")")
                                                      : joined("acc = ", row.name, "(r", operand, ", acc)");
@@ -48,7 +66,7 @@ std::string action(const Instruction& in) {
 }
 
 bool moves_position(const Instruction& in) {
-  return in.op < Instruction::kKeep && op_table()[in.op].kind >= OpKind::place;
+  return in.op < Instruction::kKeep && ops::registry()[in.op].row.kind >= OpKind::place;
 }
 
 }  // namespace

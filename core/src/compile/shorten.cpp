@@ -29,7 +29,7 @@ void for_each_bit(std::uint32_t bits, Body&& body) {
 }  // namespace
 
 void Shortener::begin(const Tape& full) {
-  slack_ = full.search_slack;
+  slack_ = full.enclosure_slack;
   const auto registers = static_cast<std::size_t>(full.register_count);
   ranges_.resize(registers * 2 * kRegionLanes);
   for (std::size_t i = 0; i < ranges_.size(); ++i) ranges_[i] = i / kRegionLanes % 2 == 0 ? kInfinity : -kInfinity;
@@ -112,6 +112,7 @@ void Shortener::write(const Tape& from, std::span<Stream> streams) {
   for (std::size_t i = 0; i < streams.size(); ++i) {
     streams[i].instructions = reinterpret_cast<Instruction*>(memory) + i * room;
   }
+  static const auto constant = static_cast<std::uint16_t>(ops::find_function("constant"));
   for (std::size_t i = 0; i < length; ++i) {
     const InstructionUse& use = work_.use[i];
     if (use.run == 0) continue;
@@ -126,7 +127,12 @@ void Shortener::write(const Tape& from, std::span<Stream> streams) {
     });
     for_each_bit(use.run & ~use.operand, [&](std::size_t region) { streams[region].keep(in.target); });
     for_each_bit(use.run & ~use.accumulator, [&](std::size_t region) {
-      streams[region].load(in.operand, (use.stored >> region & 1) != 0 ? in.target : Instruction::kNone);
+      const std::uint16_t target = (use.stored >> region & 1) != 0 ? in.target : Instruction::kNone;
+      if ((in.flags & Instruction::kImmediate) != 0) {
+        streams[region].add({.op = constant, .target = target, .constants = in.constants, .constant_count = 3});
+      } else {
+        streams[region].load(in.operand, target);
+      }
     });
   }
 }

@@ -12,7 +12,10 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
+
+#include "compile/formula.h"
 
 namespace thalweg::compiler {
 namespace {
@@ -96,6 +99,7 @@ class Flattener {
 
   Result<Ssa> run(const Shape& shape) {
     ssa_.root = walk(shape, {}, 0);
+    if (hides_undefined_) guard_root();
     if (ssa_.values.size() >= kMostValues) {
       return Error{.file = "",
                    .place = "/shape",
@@ -130,6 +134,10 @@ class Flattener {
     switch (entry.row.kind) {
       case OpKind::primitive:
         return primitive(shape, at, position);
+      case OpKind::formula:
+        return formula(shape, at, position);
+      case OpKind::scalar:
+        break;
       case OpKind::combine:
         return combine(shape, at, position);
       case OpKind::map:
@@ -238,6 +246,14 @@ class Flattener {
     return add(std::move(value));
   }
 
+  int formula(const Shape& shape, const Similarity& at, int position) {
+    const Position where = ssa_.positions[static_cast<std::size_t>(position)];
+    const int made = lower(*shape.formula(), {at, position, where, ssa_.dimension},
+                           [&](Value value) { return ssa_.values.size() < kMostValues ? add(std::move(value)) : 0; });
+    formulas_.insert(made);
+    return made;
+  }
+
   int combine(const Shape& shape, const Similarity& at, int position) {
     const Entry& entry = entry_of(shape.op_index());
     const std::vector<double> numbers = scaled_numbers(shape, at.scale);
@@ -259,9 +275,20 @@ class Flattener {
                   .size = plus(larger(a.size, b.size), {extent_here, 0}),
                   .error = {}};
       value.error = plus(larger(a.error, b.error), combine_rounding(entry.row.rounding, value.size, extent_here));
+      value.may_be_undefined = a.may_be_undefined || b.may_be_undefined;
+      hides_undefined_ = hides_undefined_ || value.may_be_undefined;
       folded = add(std::move(value));
     }
     return folded;
+  }
+
+  /// Comparisons of operators pass over what is undefined: the result asks for every formula once more.
+  void guard_root() {
+    static const int kGiven = ops::find_function("given");
+    for (const int formula : formulas_) {
+      const Value& of = ssa_.values[static_cast<std::size_t>(ssa_.root)];
+      ssa_.root = add({.op = kGiven, .a = formula, .b = ssa_.root, .size = of.size, .error = of.error});
+    }
   }
 
   int map(const Shape& shape, const Similarity& at, int position) {
@@ -274,6 +301,7 @@ class Flattener {
                 .b = -1,
                 .position = -1,
                 .flags = 0,
+                .may_be_undefined = a.may_be_undefined,
                 .constants = {},
                 .size = plus(a.size, {extent(entry.row, numbers), 0}),
                 .error = {}};
@@ -322,6 +350,8 @@ class Flattener {
   }
 
   Ssa ssa_;
+  std::set<int> formulas_;
+  bool hides_undefined_ = false;  ///< some operator takes a formula among its operands
   std::map<std::tuple<const void*, std::array<double, 13>, int>, int> walked_;
   std::map<std::tuple<int, int, std::vector<double>>, int> position_of_;
   std::map<std::tuple<int, int, int, int, std::uint16_t, std::vector<double>>, int> value_of_;

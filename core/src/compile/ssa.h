@@ -26,12 +26,13 @@ struct Position {
 struct Value {
   int op = -1;
   int a = -1;
-  int b = -1;
-  int position = -1;        ///< primitives only
-  std::uint16_t flags = 0;  ///< kSupport and kDepth of the instruction
-  std::vector<double> constants;
-  Affine size;   ///< |value| <= size(m)
-  Affine error;  ///< |float32 value - real value| <= error(m)
+  int b = -1;                     ///< scalar ops with a constant operand have it among the constants
+  int position = -1;              ///< primitives and coordinates
+  std::uint16_t flags = 0;        ///< kSupport and kDepth of the instruction; kImmediate and kSwapped of a scalar one
+  bool may_be_undefined = false;  ///< a formula has to do with it
+  std::vector<double> constants = {};
+  Affine size = {};   ///< |value| <= size(m), but for formulas
+  Affine error = {};  ///< |float32 value - real value| <= error(m), but for the rounding of formulas
 };
 
 struct Ssa {

@@ -5,9 +5,12 @@
 // Ullman 1970), so that few registers are live; registers and positions are then given out by a linear scan, lowest
 // free number first.
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <queue>
 
 #include "compile/ssa.h"
+#include "kernels/kernels.h"
 
 namespace thalweg::compiler {
 namespace {
@@ -90,14 +93,44 @@ class Writer {
     tape_.register_count = registers_.count();
     tape_.position_count = positions_.count();
     tape_.facts = facts;
-    tape_.slack = ssa_.values[at(ssa_.root)].error;
-    // Half as much again for the arithmetic of bounds, and 16 eps L m for the rounding of centres and reaches.
-    tape_.search_slack = {.a = 1.5 * tape_.slack.a, .b = 1.5 * tape_.slack.b + 16 * 0x1p-24 * facts.lipschitz};
+    set_slack(ssa_.values[at(ssa_.root)].error);
     tape_.constants.assign(tape_.constants64.begin(), tape_.constants64.end());
+    for (const Instruction& in : tape_.instructions) round_outward(in);
     return std::move(tape_);
   }
 
  private:
+  void set_slack(const Affine& error) {
+    // Half as much again for the arithmetic of bounds, and 16 eps L m for the rounding of centres and reaches.
+    const auto for_search = [&](double lipschitz) {
+      return Affine{.a = 1.5 * error.a, .b = 1.5 * error.b + kPlaceRounding * lipschitz};
+    };
+    if (tape_.has_formulas) {
+      // No multiple of m bounds the rounding of a formula, nor its slope; primitives beside it have both.
+      constexpr double kInfinity = std::numeric_limits<double>::infinity();
+      tape_.slack = tape_.search_slack = {.a = kInfinity, .b = 0};
+      tape_.enclosure_slack = for_search(1);
+    } else {
+      tape_.slack = error;
+      tape_.search_slack = tape_.enclosure_slack = for_search(tape_.facts.lipschitz);
+    }
+  }
+
+  /// A formula's constants {value, lo, hi}: lo and hi hold the real one in float32 too.
+  void round_outward(const Instruction& in) {
+    const bool is_constant = in.op == constant_op_ || (in.flags & Instruction::kImmediate) != 0;
+    if (!is_constant) return;
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    tape_.constants[in.constants] = static_cast<float>(tape_.constants64[in.constants]);
+    for (const std::uint32_t end : {1U, 2U}) {
+      const double exact = tape_.constants64[in.constants + end];
+      float& rounded = tape_.constants[in.constants + end];
+      rounded = static_cast<float>(exact);
+      const bool inward = end == 1 ? static_cast<double>(rounded) > exact : static_cast<double>(rounded) < exact;
+      if (inward) rounded = std::nextafter(rounded, end == 1 ? -kInfinity : kInfinity);
+    }
+  }
+
   void find_last_uses() {
     last_use_.assign(ssa_.values.size(), 0);
     position_last_use_.assign(ssa_.positions.size(), 0);
@@ -129,6 +162,7 @@ class Writer {
   void write(std::size_t step) {
     const int index = order_[step];
     const Value& v = ssa_.values[at(index)];
+    tape_.has_formulas = tape_.has_formulas || ops::registry()[at(v.op)].row.kind == OpKind::scalar;
     const int previous = step == 0 ? -1 : order_[step - 1];
     Instruction instruction;
     instruction.op = static_cast<std::uint16_t>(v.op);
@@ -137,7 +171,8 @@ class Writer {
       instruction.flags = v.flags;
       tape_.has_support = tape_.has_support || (v.flags & Instruction::kSupport) != 0;
     } else if (v.b < 0) {
-      if (previous != v.a) load(v.a);
+      instruction.flags = v.flags;
+      if (v.a >= 0 && previous != v.a) load(v.a);
     } else {
       if (previous != v.a && previous != v.b) load(v.b);
       // With both in registers b was just loaded; with a in the accumulator the operator is written swapped.
@@ -193,6 +228,7 @@ class Writer {
   }
 
   const Ssa& ssa_;
+  const int constant_op_ = ops::find_function("constant");
   std::vector<int> order_;
   std::vector<std::size_t> last_use_;
   std::vector<std::size_t> position_last_use_;

@@ -54,7 +54,8 @@ HWY_INLINE ClosestSearch<T, D> begin_closest(const Tape& tape, Point<T, D> p, co
   s.trial = p - scaled(s.normal, f.value);
   s.nearest = s.trial;
   s.tangent = no_direction<T, D>();
-  s.slack = mul_add(largest_size(p), Make<T>::set(tape.slack.b), Make<T>::set(tape.slack.a));
+  const Affine& slack = tape.has_formulas ? tape.enclosure_slack : tape.slack;
+  s.slack = mul_add(largest_size(p), Make<T>::set(slack.b), Make<T>::set(slack.a));
   const bool outside = tape.facts.outside == Exactness::exact;
   const bool inside = tape.facts.inside == Exactness::exact;
   const T yes = one<T>();

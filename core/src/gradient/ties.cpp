@@ -150,7 +150,8 @@ Ties Ties::make(Arena& arena, int dimension, std::size_t count, bool with_sides)
 float tie_reach(const Tape& tape, float largest) {
   const double size = static_cast<double>(largest);
   // A few steps of the float32 grid at least, or the vertices would be the point.
-  return static_cast<float>(std::max(2 * tape.slack(size), 0x1p-21 * size));
+  const Affine& slack = tape.has_formulas ? tape.enclosure_slack : tape.slack;
+  return static_cast<float>(std::max(2 * slack(size), 0x1p-21 * size));
 }
 
 void find_ties(const Tape& tape, const Kernels& kernels, const float* const* points, std::size_t count,

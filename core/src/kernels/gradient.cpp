@@ -23,7 +23,8 @@ void gradient_of(const Tape& tape, const float* const* points, size_t count, flo
   for (size_t i = 0; i < count; i += lanes) {
     for (int axis = 0; axis < D; ++axis)
       store(Make<T>::load(points[axis] + i), m.positions + static_cast<size_t>(axis) * lanes);
-    const Field<T, D> f = divided(run(GradientMode<T, D>{}, m));
+    Field<T, D> f = divided(run(GradientMode<T, D>{}, m));
+    if (tape.has_formulas) f.gradient = finite_or_zero(f.gradient);
     if (value != nullptr) store(f.value, value + i);
     store(f.gradient.x, gradient[0] + i);
     store(f.gradient.y, gradient[1] + i);

@@ -104,7 +104,8 @@ inline constexpr bool kMovesPosition = Op::kDeclaration.kind == OpKind::warp ||
   THALWEG_CASES_8(CASE, N + 24) THALWEG_CASES_8(CASE, N + 32)                         \
   THALWEG_CASES_8(CASE, N + 40) THALWEG_CASES_8(CASE, N + 48) THALWEG_CASES_8(CASE, N + 56)
 // clang-format on
-static_assert(kOpCount <= 64, "give the dispatch more cases");
+#define THALWEG_CASES_128(CASE) THALWEG_CASES_64(CASE, 0) THALWEG_CASES_64(CASE, 64)
+static_assert(kOpCount <= 128, "give the dispatch more cases");
 
 /// The gradient before an op's move of position; only moves are ever asked for.
 template <class Declared, class T, int D>
@@ -131,7 +132,7 @@ HWY_INLINE Point<T, D> pull_back(const Machine<T>& m, const Instruction& in, Poi
   case I:                                  \
     g = pull_through<OpAt<I>>(from, c, g); \
     break;
-      THALWEG_CASES_64(THALWEG_CASE, 0)
+      THALWEG_CASES_128(THALWEG_CASE)
 #undef THALWEG_CASE
     }
     slot = made.operand;
@@ -146,6 +147,7 @@ struct ValueMode {
   using T = T_;
   static constexpr int D = D_;
   static constexpr size_t kComponents = 1;
+  static constexpr bool kHasScalars = true;
   struct Register {
     T value;
   };
@@ -164,6 +166,19 @@ struct ValueMode {
   HWY_INLINE Register map(const Machine<T>&, const Instruction&, Register a, Constants<T> c) const {
     return {Declared::map(Field<T, D>{a.value, {}}, c).value};
   }
+  template <class Declared>
+  HWY_INLINE Register leaf(const Machine<T>&, const Instruction&, Point<T, D> p, Constants<T> c) const {
+    return {Declared::leaf(p, c).value};
+  }
+  template <class Declared>
+  HWY_INLINE Register unary(const Machine<T>&, const Instruction&, Register a) const {
+    return {Declared::apply(Field<T, D>{a.value, {}}).value};
+  }
+  template <class Declared>
+  HWY_INLINE Register binary(const Machine<T>&, const Instruction&, Register a, Register b) const {
+    return {Declared::apply(Field<T, D>{a.value, {}}, Field<T, D>{b.value, {}}).value};
+  }
+  static HWY_INLINE Register immediate(Constants<T> c) { return {c[0]}; }
   template <class S>
   static HWY_INLINE Register load(const S* from) {
     return {Make<T>::load(from)};
@@ -179,6 +194,7 @@ struct GradientMode {
   using T = T_;
   static constexpr int D = D_;
   static constexpr size_t kComponents = 2 + D;
+  static constexpr bool kHasScalars = true;
   using Register = Ray<T, D>;
 
   template <class Declared>
@@ -198,6 +214,19 @@ struct GradientMode {
   HWY_INLINE Register map(const Machine<T>&, const Instruction&, const Register& a, Constants<T> c) const {
     return Declared::map(a, c);
   }
+  template <class Declared>
+  HWY_INLINE Register leaf(const Machine<T>&, const Instruction&, Point<T, D> p, Constants<T> c) const {
+    return undivided(Declared::leaf(p, c));
+  }
+  template <class Declared>
+  HWY_INLINE Register unary(const Machine<T>&, const Instruction&, const Register& a) const {
+    return undivided(Declared::apply(divided(a)));
+  }
+  template <class Declared>
+  HWY_INLINE Register binary(const Machine<T>&, const Instruction&, const Register& a, const Register& b) const {
+    return undivided(Declared::apply(divided(a), divided(b)));
+  }
+  static HWY_INLINE Register immediate(Constants<T> c) { return undivided(without_slope<T, D>(c[0])); }
   template <class S>
   static HWY_INLINE Register load(const S* from) {
     const size_t n = lanes_of<T>();
@@ -213,12 +242,14 @@ struct GradientMode {
 };
 
 /// Cells are given by what bounds need of them: the reach (greatest distance from the centre c to a point of the
-/// cell), the least of g . (v - c) over the cell's vertices v, and the greatest |v - c + o| for an offset o.
+/// cell), the least of g . (v - c) over the cell's vertices v, and the greatest |v - c + o| for an offset o. Tapes with
+/// formulas have a mode of their own (ranges.inl).
 template <class T_, int D_, class Cell, bool kWithGradient>
 struct EnclosureMode {
   using T = T_;
   static constexpr int D = D_;
   static constexpr size_t kComponents = kWithGradient ? 3 + D : 3;
+  static constexpr bool kHasScalars = false;
   struct Register {
     T lo, value, hi;
     Point<T, D> gradient;  ///< at the centre, if wanted
@@ -296,13 +327,36 @@ struct EnclosureMode {
 // --- the machine
 // ------------------------------------------------------------------------------------------------------
 
+/// Arithmetic on the accumulator: of nothing, of it alone, or of it and a register or constant.
+template <class Declared, class Mode>
+HWY_INLINE void scalar_step(const Mode& mode, const Machine<typename Mode::T>& m, const Instruction& in,
+                            typename Mode::Register& acc) {
+  using T = typename Mode::T;
+  const Constants<T> c{m.pool + in.constants, in.constant_count};
+  if constexpr (Declared::kOperands == 0) {
+    acc = mode.template leaf<Declared>(m, in,
+                                       load_point<T, Mode::D>(m.positions + in.operand * Mode::D * lanes_of<T>()), c);
+  } else if constexpr (Declared::kOperands == 1) {
+    acc = mode.template unary<Declared>(m, in, acc);
+  } else {
+    const auto other = (in.flags & Instruction::kImmediate) != 0
+                           ? Mode::immediate(c)
+                           : Mode::load(m.registers + in.operand * Mode::kComponents * lanes_of<T>());
+    if ((in.flags & Instruction::kSwapped) != 0) {
+      acc = mode.template binary<Declared>(m, in, acc, other);
+    } else {
+      acc = mode.template binary<Declared>(m, in, other, acc);
+    }
+  }
+}
+
 template <class Declared, class Mode>
 HWY_INLINE void step(const Mode& mode, const Machine<typename Mode::T>& m, const Instruction& in,
                      typename Mode::Register& acc) {
   using T = typename Mode::T;
   constexpr int D = Mode::D;
   constexpr OpKind kKind = Declared::kDeclaration.kind;
-  const Constants<T> c = constants_of(m, in);
+  [[maybe_unused]] const Constants<T> c = constants_of(m, in);
   if constexpr (!kApplies<Declared, D>) {
     HWY_ASSUME(false);
   } else if constexpr (kKind == OpKind::primitive) {
@@ -320,6 +374,12 @@ HWY_INLINE void step(const Mode& mode, const Machine<typename Mode::T>& m, const
     }
   } else if constexpr (kKind == OpKind::map) {
     acc = mode.template map<Declared>(m, in, acc, c);
+  } else if constexpr (kKind == OpKind::scalar) {
+    if constexpr (Mode::kHasScalars) {
+      scalar_step<Declared>(mode, m, in, acc);
+    } else {
+      HWY_ASSUME(false);
+    }
   } else if constexpr (kMovesPosition<Declared>) {
     const auto from = load_point<T, D>(m.positions + in.operand * D * lanes_of<T>());
     store_point(Declared::map(from, c), m.positions + in.target * D * lanes_of<T>());
@@ -343,7 +403,7 @@ HWY_INLINE typename Mode::Register run(const Mode& mode, const Machine<typename 
       if constexpr (kMovesPosition<Declared>) continue; \
     }                                                   \
     break;
-      THALWEG_CASES_64(THALWEG_CASE, 0)
+      THALWEG_CASES_128(THALWEG_CASE)
 #undef THALWEG_CASE
       default:
         if (in->op == Instruction::kLoad)

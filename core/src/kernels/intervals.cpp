@@ -20,6 +20,7 @@ struct IntervalMode {
   using T = T_;
   static constexpr int D = D_;
   static constexpr size_t kComponents = 2;
+  static constexpr bool kHasScalars = true;
   using Register = Interval<T>;
 
   T reach;
@@ -33,13 +34,18 @@ struct IntervalMode {
   template <class Declared>
   HWY_INLINE Register combine(const Machine<T>&, const Instruction&, const Register& a, const Register& b,
                               Constants<T> c) const {
+    note<Declared>(a, b);
+    constexpr bool kRising = Declared::kTrend[1] > 0;
+    const auto at = [&](T x, T y) { return Declared::combine(Field<T, D>{x, {}}, Field<T, D>{y, {}}, c).value; };
+    // Where a formula may be undefined nothing is known of what is joined with it.
+    return defined_like(a, b, Register{at(a.lo, kRising ? b.lo : b.hi), at(a.hi, kRising ? b.hi : b.lo)});
+  }
+  template <class Declared>
+  HWY_INLINE void note(const Register& a, const Register& b) const {
     constexpr Role kRole = role_of<Declared>();
     store_interval(kRole.greatest ? mirrored(a) : a, *record, lanes_of<T>());
     store_interval(kRole.greatest != kRole.second_falls ? mirrored(b) : b, *record + 2 * lanes_of<T>(), lanes_of<T>());
     *record += 4 * lanes_of<T>();
-    constexpr bool kRising = Declared::kTrend[1] > 0;
-    const auto at = [&](T x, T y) { return Declared::combine(Field<T, D>{x, {}}, Field<T, D>{y, {}}, c).value; };
-    return {at(a.lo, kRising ? b.lo : b.hi), at(a.hi, kRising ? b.hi : b.lo)};
   }
   template <class Declared>
   HWY_INLINE Register map(const Machine<T>&, const Instruction&, const Register& a, Constants<T> c) const {
@@ -50,6 +56,22 @@ struct IntervalMode {
       return {at(a.lo), at(a.hi)};
     }
   }
+  template <class Declared>
+  HWY_INLINE Register leaf(const Machine<T>&, const Instruction&, Point<T, D> p, Constants<T> c) const {
+    Register offsets[D];
+    for (Register& offset : offsets) offset = {-reach, reach};
+    return Declared::enclose(p, offsets, zero<T>(), c);
+  }
+  template <class Declared>
+  HWY_INLINE Register unary(const Machine<T>&, const Instruction&, const Register& a) const {
+    return Declared::enclose(a);
+  }
+  template <class Declared>
+  HWY_INLINE Register binary(const Machine<T>&, const Instruction&, const Register& a, const Register& b) const {
+    if constexpr (role_of<Declared>().part != Part::pair) note<Declared>(a, b);
+    return Declared::enclose(a, b);
+  }
+  static HWY_INLINE Register immediate(Constants<T> c) { return {c[1], c[2]}; }
   static HWY_INLINE Register load(const float* from) { return load_interval<T>(from, lanes_of<T>()); }
   static HWY_INLINE void save(const Register& a, float* to) { store_interval(a, to, lanes_of<T>()); }
 };

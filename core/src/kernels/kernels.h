@@ -23,6 +23,10 @@ inline constexpr int kGradientWidth = 2;
 inline constexpr std::size_t kMostChunkLanes = kValueWidth * 16;
 /// A coordinate that can be answered is finite and at most this large.
 inline constexpr float kLargestCoordinate = 1e15F;
+/// Of float32.
+inline constexpr double kUnitRoundoff = 0x1p-24;
+/// Corners, centres and edges of cells are off by at most this part of the largest coordinate of their query.
+inline constexpr double kPlaceRounding = 16 * kUnitRoundoff;
 inline constexpr std::size_t kColumnPadding = 64;
 [[nodiscard]] constexpr std::size_t padded(std::size_t count) {
   return (count + kColumnPadding - 1) / kColumnPadding * kColumnPadding;
@@ -34,7 +38,15 @@ struct CellColumns {
   const float* reach = nullptr;
   const float* edges[9] = {};
   bool is_box = false;
-  float* gradient[3] = {};  ///< where the gradients at the centres go; null: they are not wanted
+  float* gradient[3] = {};       ///< where the gradients at the centres go; null: they are not wanted
+  const float* place = nullptr;  ///< tapes with formulas: how far the places of each cell's points may be off
+};
+
+/// What is known of f over cells; all padded.
+struct RangeColumns {
+  float* lower = nullptr;
+  float* value = nullptr;  ///< f at the centre, as the value kernel has it
+  float* upper = nullptr;
 };
 
 /// Columns of points and where their gradients go; all padded.
@@ -77,6 +89,10 @@ using StrategyKernel = void (*)(const Tape& tape, const GradientRule& rule, cons
                                 float* scratch);
 using EnclosureKernel = void (*)(const Tape& tape, const float* const* centres, const CellColumns& cells,
                                  std::size_t count, float* lower, float* value, float* scratch);
+/// [lower, upper] encloses f over each cell, which is what tapes with formulas are proven by: their rounding included
+/// but for Tape::enclosure_slack; infinite where f may be undefined.
+using RangeKernel = void (*)(const Tape& tape, const float* const* centres, const CellColumns& cells, std::size_t count,
+                             const RangeColumns& range, float* scratch);
 
 struct RegionColumns;
 struct RegionWork;
@@ -104,6 +120,7 @@ struct Kernels {
   RowsKernel rows = nullptr;
   EnclosureKernel enclosure = nullptr;
   RegionKernel regions = nullptr;
+  RangeKernel ranges = nullptr;
   FinishKernel finish = nullptr;
   TriangleSolver certify_triangles = nullptr;
   CircleSolver certify_circles = nullptr;

@@ -134,8 +134,14 @@ THALWEG_LANE_2(operator+, a.v + b.v, hn::Add(a.v, b.v))
 THALWEG_LANE_2(operator-, a.v - b.v, hn::Sub(a.v, b.v))
 THALWEG_LANE_2(operator*, a.v* b.v, hn::Mul(a.v, b.v))
 THALWEG_LANE_2(operator/, a.v / b.v, hn::Div(a.v, b.v))
+/// min and max return the second operand when it is NaN, on every target.
+#if HWY_TARGET == HWY_SCALAR
+THALWEG_LANE_2(min, a.v < b.v ? a.v : b.v, hn::IfThenElse(hn::Lt(a.v, b.v), a.v, b.v))
+THALWEG_LANE_2(max, a.v > b.v ? a.v : b.v, hn::IfThenElse(hn::Gt(a.v, b.v), a.v, b.v))
+#else
 THALWEG_LANE_2(min, a.v < b.v ? a.v : b.v, hn::Min(a.v, b.v))
 THALWEG_LANE_2(max, a.v > b.v ? a.v : b.v, hn::Max(a.v, b.v))
+#endif
 /// Magnitude of a with the sign of b.
 THALWEG_LANE_2(copysign, std::copysign(a.v, b.v), hn::CopySign(a.v, b.v))
 /// a with its sign turned where b is negative.

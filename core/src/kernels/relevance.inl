@@ -30,7 +30,7 @@ namespace thalweg {
 namespace HWY_NAMESPACE {
 
 /// What the pass asks of an op.
-enum class Part : uint8_t { move, leaf, whole, choice, load, keep };
+enum class Part : uint8_t { move, leaf, whole, pair, guard, choice, load, keep };
 struct Role {
   Part part = Part::leaf;
   bool greatest = false;      ///< of a choice
@@ -48,6 +48,14 @@ consteval Role role_of() {
             .greatest = Declared::kSelection == Selection::greatest,
             .second_falls = Declared::kTrend[1] < 0,
             .blends = Declared::kBlends};
+  } else if constexpr (kKind == OpKind::scalar) {
+    if constexpr (requires { Declared::kSelection; }) {
+      return {.part = Part::choice, .greatest = Declared::kSelection == Selection::greatest};
+    } else if constexpr (requires { Declared::kInternal; }) {
+      return {.part = Part::guard};
+    } else {
+      return {.part = Declared::kOperands == 0 ? Part::leaf : Declared::kOperands == 1 ? Part::whole : Part::pair};
+    }
   } else {
     return {.part = kKind == OpKind::map ? Part::whole : Part::leaf};
   }
@@ -145,6 +153,12 @@ class Relevance {
     store_interval(all, range(slot), kRegionLanes);
   }
 
+  /// A constant in place of a register needs nothing.
+  static HWY_INLINE bool reads_register(const Instruction& in) { return (in.flags & Instruction::kImmediate) == 0; }
+  HWY_INLINE void require_operand(const Instruction& in, Interval<T> values) {
+    if (reads_register(in)) require(in.operand, values);
+  }
+
   HWY_INLINE InstructionUse step(const Instruction& in) {
     const Role role = role_of(in);
     InstructionUse use;
@@ -154,7 +168,7 @@ class Relevance {
       work_.positions[in.operand] |= use.run;
       return use;
     }
-    if (role.part == Part::choice) record_ -= 4 * lanes_of<T>();
+    if (role.part == Part::choice || role.part == Part::guard) record_ -= 4 * lanes_of<T>();
     Interval<T> matters = accumulator_;
     if (in.target != Instruction::kNone) {
       const auto stored = load_interval<T>(range(in.target), kRegionLanes);
@@ -170,6 +184,14 @@ class Relevance {
     switch (role.part) {
       case Part::choice:
         choose(in, role, live, matters, use);
+        break;
+      case Part::guard:
+        guard(in, live, matters, use);
+        break;
+      case Part::pair:
+        use.accumulator = use.operand = use.run;
+        accumulator_ = where(live, everything());
+        require_operand(in, accumulator_);
         break;
       case Part::keep:
         use.accumulator = use.run;
@@ -187,7 +209,7 @@ class Relevance {
         use.accumulator = use.operand = use.run;
         work_.positions[in.operand] |= use.run;
     }
-    if (role.part >= Part::choice) leave_out_idle(in, read_next, use);
+    if (role.part >= Part::guard) leave_out_idle(in, read_next, use);
     return use;
   }
 
@@ -195,7 +217,8 @@ class Relevance {
   /// is read.
   HWY_INLINE void leave_out_idle(const Instruction& in, Interval<T> read_next, InstructionUse& use) const {
     use.run &= use.operand | use.stored;
-    if (in.operand == in.target) use.run &= use.accumulator | bits_of(read_next.lo <= read_next.hi);
+    if (reads_register(in) && in.operand == in.target)
+      use.run &= use.accumulator | bits_of(read_next.lo <= read_next.hi);
   }
 
   template <class M>
@@ -203,13 +226,14 @@ class Relevance {
     const auto first = load_interval<T>(record_, lanes_of<T>());
     const auto second = load_interval<T>(record_ + 2 * lanes_of<T>(), lanes_of<T>());
     if (role.greatest) matters = mirrored(matters);
-    T first_most = min(matters.hi, second.hi);
-    T second_most = min(matters.hi, first.hi);
+    // Of an operand that may be undefined nothing is known: NaN in the first place of min gives way to the second.
+    T first_most = min(second.hi, matters.hi);
+    T second_most = min(first.hi, matters.hi);
     if (role.blends) {
       const T width = Make<T>::set(tape_.constants[in.constants]);
       const T most = add_up(matters.hi, width + width);
-      first_most = min(most, add_up(second.hi, width));
-      second_most = min(most, add_up(first.hi, width));
+      first_most = min(add_up(second.hi, width), most);
+      second_most = min(add_up(first.hi, width), most);
     }
     const M second_out = add_up(second_most, gap_) < second.lo;
     // Without the first operand a falling one would be left, which no load can negate.
@@ -222,9 +246,23 @@ class Relevance {
     if (role.greatest != role.second_falls) of_second = mirrored(of_second);
     const bool swapped = (in.flags & Instruction::kSwapped) != 0;
     accumulator_ = swapped ? of_first : of_second;
-    require(in.operand, swapped ? of_second : of_first);
+    require_operand(in, swapped ? of_second : of_first);
     use.accumulator = bits_of(swapped ? needs_first : needs_second);
     use.operand = bits_of(swapped ? needs_second : needs_first);
+  }
+
+  /// Returns its second operand where the first one is defined, which is all that is asked of that one.
+  template <class M>
+  HWY_INLINE void guard(const Instruction& in, M live, Interval<T> matters, InstructionUse& use) {
+    const T first = Make<T>::load(record_);
+    const M asks_first = without(live, first == first);
+    const Interval<T> of_first = where(asks_first, everything());
+    const Interval<T> of_second = where(live, matters);
+    const bool swapped = (in.flags & Instruction::kSwapped) != 0;
+    accumulator_ = swapped ? of_first : of_second;
+    require(in.operand, swapped ? of_second : of_first);
+    use.accumulator = swapped ? bits_of(asks_first) : use.run;
+    use.operand = swapped ? use.run : bits_of(asks_first);
   }
 
   const Tape& tape_;

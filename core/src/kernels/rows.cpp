@@ -33,6 +33,7 @@ struct RowColumns {
   size_t count;
   float* value;
   float* gradient;
+  bool has_formulas;  ///< which may be undefined at good points
   size_t bad_rows = 0;
 
   /// Stores the chunk of points from row `first` on at a machine's position 0. Whether all can be answered.
@@ -44,15 +45,16 @@ struct RowColumns {
     return all_good;
   }
   HWY_INLINE void give(size_t first, bool all_good, T f) {
-    if (HWY_UNLIKELY(!all_good)) f = select(good_rows(first), f, not_a_number());
+    if (HWY_UNLIKELY(!all_good || has_formulas)) f = select(good_rows(first, f), f, not_a_number<T>());
     if (value == nullptr) return;
     store_lanes(value + first, count - first, lanes_of<T>(), 1, [&](float* to) HWY_ATTR { store(f, to); });
   }
   HWY_INLINE void give(size_t first, bool all_good, Field<T, D> f) {
     const size_t left = count - first;
-    if (HWY_UNLIKELY(!all_good)) {
-      const auto good = good_rows(first);
-      f = {select(good, f.value, not_a_number()), select(good, f.gradient, splat<T, D>(not_a_number()))};
+    if (HWY_UNLIKELY(!all_good || has_formulas)) {
+      if (has_formulas) f.gradient = finite_or_zero(f.gradient);
+      const auto good = good_rows(first, f.value);
+      f = {select(good, f.value, not_a_number<T>()), select(good, f.gradient, splat<T, D>(not_a_number<T>()))};
     }
     const size_t lanes = lanes_of<T>();
     if (value != nullptr) store_lanes(value + first, left, lanes, 1, [&](float* to) HWY_ATTR { store(f.value, to); });
@@ -60,11 +62,19 @@ struct RowColumns {
   }
 
  private:
-  static HWY_INLINE T not_a_number() { return Make<T>::set(std::numeric_limits<float>::quiet_NaN()); }
-  HWY_INLINE auto good_rows(size_t first) {
-    const auto good = is_answerable(load_rows<T, D>(points + first * D, count - first));
-    bad_rows += lanes_of<T>() - count_true(good);
+  HWY_INLINE auto good_rows(size_t first, T f) {
+    auto good = is_answerable(load_rows<T, D>(points + first * D, count - first));
+    if (has_formulas) good = both(good, is_number(f));
+    bad_rows += count_bad(good, count - first);
     return good;
+  }
+  /// Of the rows that are left.
+  template <class M>
+  static HWY_INLINE size_t count_bad(M good, size_t left) {
+    if (HWY_LIKELY(left >= lanes_of<T>())) return lanes_of<T>() - count_true(good);
+    float flags[kMostChunkLanes];
+    store(select(good, zero<T>(), one<T>()), flags);
+    return static_cast<size_t>(std::count(flags, flags + left, 1.0F));
   }
 };
 
@@ -73,7 +83,7 @@ size_t values_of(const Tape& tape, const float* points, size_t count, float* val
   using Mode = ValueMode<Pack<kValueWidth>, D>;
   using T = typename Mode::T;
   const Machine<T> m = machine_for<Mode>(tape, scratch);
-  RowColumns<T, D> rows{points, count, value, nullptr};
+  RowColumns<T, D> rows{points, count, value, nullptr, tape.has_formulas};
   for (size_t i = 0; i < count; i += lanes_of<T>()) {
     const bool all_good = rows.take(i, m.positions);
     rows.give(i, all_good, run(Mode{}, m).value);
@@ -87,7 +97,7 @@ size_t gradients_of(const Tape& tape, const float* points, size_t count, float* 
   using Mode = GradientMode<Pack<kGradientWidth>, D>;
   using T = typename Mode::T;
   const Machine<T> m = machine_for<Mode>(tape, scratch);
-  RowColumns<T, D> rows{points, count, value, gradient};
+  RowColumns<T, D> rows{points, count, value, gradient, tape.has_formulas};
   for (size_t i = 0; i < count; i += lanes_of<T>()) {
     const bool all_good = rows.take(i, m.positions);
     rows.give(i, all_good, divided(run(Mode{}, m)));

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "kernels/interpreter.inl"
+#include "kernels/ranges.inl"
 
 namespace thalweg {
 namespace HWY_NAMESPACE {
@@ -15,6 +15,12 @@ struct TwinCell {
   const Cell64* cell;
 
   [[nodiscard]] Real reach() const { return {cell->reach}; }
+  [[nodiscard]] Real place() const { return {cell->place}; }
+  [[nodiscard]] Interval<Real> offset(int axis) const {
+    if (cell->is_box) return {{-cell->edges[axis]}, {cell->edges[axis]}};
+    const double a = cell->edges[axis], b = cell->edges[D + axis], c = cell->edges[2 * D + axis];
+    return {{std::min({a, b, c})}, {std::max({a, b, c})}};
+  }
   [[nodiscard]] Real least_slope(Point<Real, D> g) const {
     const double slope[3] = {g.x.v, g.y.v, [&] {
                                if constexpr (D == 3) return g.z.v;
@@ -73,9 +79,14 @@ double gradient_at(const Machine<Real>& m, double* gradient) {
 }
 
 template <int D>
-Enclosure64 enclosure_at(const Machine<Real>& m, const Cell64& cell) {
+Enclosure64 enclosure_at(const Machine<Real>& m, const Cell64& cell, bool has_formulas) {
+  if (has_formulas) {
+    const auto f = run(RangeMode<Real, D, TwinCell<D>>{{&cell}}, m);
+    const Interval<Real> said = said_of(f.lo, f.hi);
+    return {said.lo.v, f.value.v, said.hi.v};
+  }
   const auto f = run(EnclosureMode<Real, D, TwinCell<D>, false>{{&cell}}, m);
-  return {f.lo.v, f.value.v};
+  return {f.lo.v, f.value.v, f.hi.v};
 }
 
 }  // namespace
@@ -104,7 +115,8 @@ double Twin::gradient(const double* point, double* gradient) {
 
 Enclosure64 Twin::enclose(const double* centre, const Cell64& cell) {
   const auto m = simd::twin_machine(*tape_, memory_.data(), definition_.data(), centre);
-  return tape_->dimension == 2 ? simd::enclosure_at<2>(m, cell) : simd::enclosure_at<3>(m, cell);
+  return tape_->dimension == 2 ? simd::enclosure_at<2>(m, cell, tape_->has_formulas)
+                               : simd::enclosure_at<3>(m, cell, tape_->has_formulas);
 }
 
 double evaluate_double(const Tape& tape, const double* point, double* gradient) {

@@ -15,11 +15,13 @@ struct Cell64 {
   double reach = 0;
   double edges[9] = {};
   bool is_box = false;
+  double place = 0;  ///< tapes with formulas: how far the places of its points may be off
 };
 
 struct Enclosure64 {
   double lo = 0;     ///< lower bound of f over the cell
   double value = 0;  ///< f at its centre
+  double hi = 0;     ///< upper bound, of tapes with formulas
 };
 
 /// Evaluates one tape in double; holds the machine's memory, so one per thread.
@@ -30,6 +32,7 @@ class Twin {
   /// From now on this tape. A shortened one will do: where it has the bits of the full tape in float32 it has them in
   /// double, whose errors are a small part of what regions are widened by.
   void use(const Tape& tape);
+  [[nodiscard]] const Tape& tape() const { return *tape_; }
   [[nodiscard]] double value(const double* point);
   double gradient(const double* point, double* gradient);
   [[nodiscard]] Enclosure64 enclose(const double* centre, const Cell64& cell);

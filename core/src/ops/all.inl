@@ -18,6 +18,7 @@
 #include <optional>
 #include <utility>
 
+#include "kernels/functions.inl"
 #include "kernels/lanes.inl"
 #include "ops/declaration.h"
 #include "ops/polygon.h"
@@ -47,6 +48,12 @@ inline constexpr int kFirstOp = __COUNTER__ + 1;
 // Operators come after the primitives that they act on.
 #include "ops/operators.inl"
 #include "ops/placement.inl"
+// Formulas: the two nodes that hold one, and what one is made of. The scalar ops are the last ones.
+#include "ops/formula.inl"
+#include "ops/outward.inl"
+#include "ops/scalar.inl"
+// The functions use the arithmetic.
+#include "ops/functions.inl"
 
 #undef THALWEG_OP
 inline constexpr int kOpCount = __COUNTER__ - kFirstOp;

@@ -69,12 +69,15 @@ struct Declaration {
   std::string_view note = "";
   /// Rounding error of one float32 evaluation in units of eps * (|local point| + |translation| + sizes), for map
   /// operators of eps * (|operand value| + sizes), for combining ones of eps * sizes beside one rounding of the result,
-  /// and 0 for a mere choice. Held against the oracle by the conformance tests.
+  /// and 0 for a mere choice; for scalar ops in units in the last place. Held against the oracle by the conformance
+  /// tests.
   double rounding = 8;
   /// The parameters describe the op in any orientation (points, directions, or full symmetry): rotations need no
   /// instruction of their own.
   bool absorbs_rotation = false;
   bool is_unsigned = false;  ///< a primitive whose f is never negative
+  /// Scalar ops: the name in `.vm` programs, empty for those that have none.
+  std::string_view opcode = "";
 };
 
 consteval OpParameter size(std::string_view name, std::string_view meaning, int arity = 1) {

@@ -4,6 +4,7 @@
 // Collects each op's declaration into a row, taking what the op offers and leaving the rest null.
 #include "ops/registry.h"
 
+#include <algorithm>
 #include <string>
 
 #include "ops/all.inl"
@@ -53,6 +54,36 @@ void fill_operator(Entry& entry) {
 }
 
 template <class Op>
+void fill_scalar(Entry& entry) {
+  using HWY_NAMESPACE::Field;
+  using HWY_NAMESPACE::Interval;
+  using HWY_NAMESPACE::Real;
+  entry.opcode = Op::kDeclaration.opcode;
+  entry.operands = Op::kOperands;
+  entry.commutes = requires { Op::kCommutes; };
+  entry.internal = Op::kOperands == 0 || requires { Op::kInternal; };
+  if constexpr (requires { Op::kSelection; }) {
+    entry.selects = true;
+    entry.selection = Op::kSelection;
+  }
+  if constexpr (Op::kOperands == 1) {
+    entry.evaluate = [](double a, double) { return Op::apply(Field<Real, 2>{{a}, {}}).value.v; };
+    entry.enclose = [](Range64 a, Range64) {
+      const Interval<Real> found = Op::enclose(Interval<Real>{{a.lo}, {a.hi}});
+      return Range64{found.lo.v, found.hi.v};
+    };
+  } else if constexpr (Op::kOperands == 2) {
+    entry.evaluate = [](double a, double b) {
+      return Op::apply(Field<Real, 2>{{a}, {}}, Field<Real, 2>{{b}, {}}).value.v;
+    };
+    entry.enclose = [](Range64 a, Range64 b) {
+      const Interval<Real> found = Op::enclose(Interval<Real>{{a.lo}, {a.hi}}, Interval<Real>{{b.lo}, {b.hi}});
+      return Range64{found.lo.v, found.hi.v};
+    };
+  }
+}
+
+template <class Op>
 Entry make_entry() {
   constexpr const Declaration& declared = Op::kDeclaration;
   Entry entry;
@@ -68,7 +99,9 @@ Entry make_entry() {
   if constexpr (requires(Numbers p) { Op::check(p); }) entry.check = &Op::check;
   if constexpr (declared.kind == OpKind::primitive) {
     fill_primitive<Op>(entry);
-  } else {
+  } else if constexpr (declared.kind == OpKind::scalar) {
+    fill_scalar<Op>(entry);
+  } else if constexpr (declared.kind != OpKind::formula) {
     fill_operator<Op>(entry);
   }
   return entry;
@@ -97,12 +130,25 @@ std::vector<int> find_ops(std::string_view name, int dimension) {
   std::vector<int> found;
   int index = 0;
   for (const Entry& entry : registry()) {
-    if (entry.row.name == name && (entry.row.dimension == 0 || entry.row.dimension == dimension)) {
+    if (entry.row.kind != OpKind::scalar && entry.row.name == name &&
+        (entry.row.dimension == 0 || entry.row.dimension == dimension)) {
       found.push_back(index);
     }
     ++index;
   }
   return found;
+}
+
+int find_function(std::string_view name) {
+  const auto fits = [&](const Entry& entry) { return entry.row.kind == OpKind::scalar && entry.row.name == name; };
+  const auto found = std::ranges::find_if(registry(), fits);
+  return found == registry().end() ? -1 : static_cast<int>(found - registry().begin());
+}
+
+int find_opcode(std::string_view opcode) {
+  const auto fits = [&](const Entry& entry) { return !opcode.empty() && entry.opcode == opcode; };
+  const auto found = std::ranges::find_if(registry(), fits);
+  return found == registry().end() ? -1 : static_cast<int>(found - registry().begin());
 }
 
 int rigid_op(int dimension) {
@@ -115,20 +161,34 @@ int rigid_op(int dimension) {
 std::span<const OpRow> op_table() {
   static const std::vector<OpRow> rows = [] {
     std::vector<OpRow> all;
-    for (const ops::Entry& entry : ops::registry()) all.push_back(entry.row);
+    for (const ops::Entry& entry : ops::registry()) {
+      if (entry.row.kind != OpKind::scalar) all.push_back(entry.row);
+    }
+    return all;
+  }();
+  return rows;
+}
+
+std::span<const FunctionRow> function_table() {
+  static const std::vector<FunctionRow> rows = [] {
+    std::vector<FunctionRow> all;
+    for (const ops::Entry& entry : ops::registry()) {
+      if (entry.row.kind != OpKind::scalar || entry.internal) continue;
+      all.push_back({entry.row.name, entry.opcode, entry.operands, entry.row.note, entry.row.rounding});
+    }
     return all;
   }();
   return rows;
 }
 
 std::string_view name(OpKind kind) {
-  static constexpr std::string_view kNames[] = {"primitive", "combine", "map", "place", "warp"};
+  static constexpr std::string_view kNames[] = {"primitive", "formula", "scalar", "combine", "map", "place", "warp"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
 std::string_view name(Quantity quantity) {
-  static constexpr std::string_view kNames[] = {"length", "point", "direction", "vector",    "angle",
-                                                "number", "count", "choice",    "quaternion"};
+  static constexpr std::string_view kNames[] = {"length", "point", "direction", "vector",     "angle",
+                                                "number", "count", "choice",    "quaternion", "text"};
   return kNames[static_cast<std::size_t>(quantity)];
 }
 

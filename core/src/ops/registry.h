@@ -11,6 +11,11 @@
 
 namespace thalweg::ops {
 
+/// From lo to hi.
+struct Range64 {
+  double lo = 0, hi = 0;
+};
+
 /// One op. Function pointers that do not apply to its kind are null.
 struct Entry {
   OpRow row;
@@ -39,6 +44,15 @@ struct Entry {
 
   Bounds (*preimage)(Bounds, Numbers) = nullptr;
   double stretch = 1;  ///< Lipschitz constant of a warp
+
+  // Scalar ops.
+  std::string_view opcode;  ///< in `.vm` programs
+  int operands = 0;
+  bool selects = false;  ///< returns one of its operands, by `selection`
+  bool commutes = false;
+  bool internal = false;                           ///< not part of the language
+  double (*evaluate)(double, double) = nullptr;    ///< on numbers; the second one is ignored where there is none
+  Range64 (*enclose)(Range64, Range64) = nullptr;  ///< rounded outward; NaN where it may be undefined
 };
 
 [[nodiscard]] std::span<const Entry> registry();
@@ -48,6 +62,10 @@ struct Entry {
 
 /// Rows with this name that may stand in a scene of this dimension, in the order of declaration.
 [[nodiscard]] std::vector<int> find_ops(std::string_view name, int dimension);
+
+/// The scalar op of that name, or of that opcode in `.vm` programs; -1 where there is none.
+[[nodiscard]] int find_function(std::string_view name);
+[[nodiscard]] int find_opcode(std::string_view opcode);
 
 /// The op `rigid` of that dimension: the instruction for a placement that a primitive cannot absorb.
 [[nodiscard]] int rigid_op(int dimension);

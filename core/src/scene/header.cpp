@@ -55,8 +55,17 @@ void write_parameter(const OpParameter& parameter, Written& out) {
   }
 }
 
+std::string formula_function(const OpRow& row) {
+  const std::string name(row.name);
+  return "/// " + name + ": " + std::string(row.exactness) + "; " + std::string(row.note) +
+         ".\n///   dimension: 2, 3, or 0: 3 if the formula depends on z, else 2\n[[nodiscard]] inline Shape " + name +
+         "(std::string_view text, int dimension = 0) {\n  return builder::made_formula(\"" + name +
+         "\", text, dimension);\n}\n\n";
+}
+
 /// The function of one row, or nothing when a row of another dimension already gave the same signature.
 std::string function(const OpRow& row, int variant, std::set<std::string>& signatures) {
+  if (row.kind == OpKind::formula) return formula_function(row);
   Written out;
   for (const OpParameter& parameter : row.parameters) write_parameter(parameter, out);
   std::string operands;
@@ -95,6 +104,7 @@ std::string ops_header() {
 
 #include <array>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -106,6 +116,7 @@ namespace builder {
 inline constexpr int kOfOperands = 0;  ///< the dimension is that of the operands
 [[nodiscard]] Shape made(std::string_view op, int dimension, std::span<const double> numbers,
                          std::vector<Shape> of = {}, int variant = 0);
+[[nodiscard]] Shape made_formula(std::string_view op, std::string_view text, int dimension);
 }  // namespace builder
 
 )";

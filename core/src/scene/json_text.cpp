@@ -10,17 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "scene/text.h"
+
 namespace thalweg::scene {
 namespace {
 
 using nlohmann::json;
-
-std::string line_and_column(std::string_view text, std::size_t position) {
-  const std::string_view before = text.substr(0, std::min(position, text.size()));
-  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-  const std::size_t start = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;
-  return std::to_string(line) + ":" + std::to_string(before.size() - start + 1);
-}
 
 /// What the library says of a fault, without its own name, number and position.
 std::string plain(std::string_view what) {
@@ -113,12 +108,6 @@ std::string pointer_step(std::string_view key) {
     }
   }
   return escaped;
-}
-
-std::string in_quotes(std::string_view text) {
-  std::string line = "\"";
-  for (const char c : text) line += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
-  return line + "\"";
 }
 
 Result<json> parse_json(std::string_view text, std::string_view file) {

@@ -19,7 +19,4 @@ inline constexpr std::size_t kDeepestNesting = 1000;
 /// A key as one step of a JSON pointer, `/` and `~` escaped.
 [[nodiscard]] std::string pointer_step(std::string_view key);
 
-/// Text of the document in quotes, on one line.
-[[nodiscard]] std::string in_quotes(std::string_view text);
-
 }  // namespace thalweg::scene

@@ -9,6 +9,7 @@
 
 #include "ops/registry.h"
 #include "scene/json_text.h"
+#include "scene/text.h"
 #include "shape/validate.h"
 #include "thalweg/scene.h"
 
@@ -28,7 +29,8 @@ std::string type_and_value(const json& value) {
 
 class SceneParser {
  public:
-  SceneParser(const json& document, std::string_view file) : document_(document), file_(file) {}
+  SceneParser(const json& document, std::string_view file, const ReadText& read_text)
+      : document_(document), file_(file), read_text_(read_text) {}
 
   Result<Scene> parse() {
     if (!document_.is_object()) return fault("", "an object", type_and_value(document_));
@@ -110,12 +112,13 @@ class SceneParser {
     const int row = best_row(rows, value);
     const Entry& entry = ops::registry()[static_cast<std::size_t>(row)];
     if (auto error = unknown_key(entry, value, place)) return *error;
+    if (entry.row.kind == OpKind::formula) return formula(entry, value, place);
     std::vector<double> numbers;
     for (const OpParameter& parameter : entry.row.parameters) {
       if (auto error = read(parameter, value, place, numbers)) return *error;
     }
     std::vector<Shape> of;
-    if (entry.row.kind != OpKind::primitive) {
+    if (has_operands(entry)) {
       if (auto error = operands(entry, value, place, of)) return *error;
     }
     auto shape = Shape::make(row, numbers, std::move(of));
@@ -137,6 +140,37 @@ class SceneParser {
     return definition(value["name"].get<std::string>(), place + "/name");
   }
 
+  static bool has_operands(const Entry& entry) {
+    return entry.row.kind != OpKind::primitive && entry.row.kind != OpKind::formula;
+  }
+
+  /// A leaf with a text, in the scene or in a file that it names.
+  Result<Shape> formula(const Entry& entry, const json& value, const std::string& place) const {
+    std::string names, given;
+    for (const OpParameter& parameter : entry.row.parameters) {
+      const std::string key(parameter.name);
+      names += (names.empty() ? "" : " or ") + scene::in_quotes(key);
+      if (!value.contains(key)) continue;
+      if (!given.empty()) return fault(place + "/" + key, "only one of " + names, "both");
+      given = key;
+    }
+    if (given.empty()) return fault(place, "the key " + names, "none");
+    const std::string here = place + "/" + given;
+    const json& found = value[given];
+    if (!found.is_string()) return fault(here, "a string", type_and_value(found));
+    auto text = found.get<std::string>();
+    if (given == "file") {
+      if (read_text_ == nullptr) return fault(here, "the program itself, as \"text\"", "a file");
+      auto read = read_text_(text);
+      if (!read) return fault(here, read.error().expected, read.error().found);
+      text = *std::move(read);
+    }
+    auto shape = Shape::formula(entry.row.name, dimension_, text);
+    if (shape) return shape;
+    const Error& error = shape.error();
+    return fault(error.place.empty() ? here : here + ":" + error.place, error.expected, error.found);
+  }
+
   /// Of rows with one name, the first whose required parameters are all there; else the first.
   static int best_row(const std::vector<int>& rows, const json& value) {
     for (const int row : rows) {
@@ -153,12 +187,12 @@ class SceneParser {
     for (const OpParameter& parameter : entry.row.parameters) {
       if (!parameter.implicit) known += ", " + std::string(parameter.name);
     }
-    if (entry.row.kind != OpKind::primitive) known += ", of";
+    if (has_operands(entry)) known += ", of";
     for (const auto& item : value.items()) {
       const std::string& key = item.key();
       const bool is_parameter =
           std::ranges::any_of(entry.row.parameters, [&](const OpParameter& p) { return !p.implicit && p.name == key; });
-      if (key == "op" || is_parameter || (key == "of" && entry.row.kind != OpKind::primitive)) continue;
+      if (key == "op" || is_parameter || (key == "of" && has_operands(entry))) continue;
       return fault(place + "/" + scene::pointer_step(key), "one of " + known, scene::in_quotes(key));
     }
     return std::nullopt;
@@ -247,6 +281,7 @@ class SceneParser {
 
   const json& document_;
   std::string_view file_;
+  const ReadText& read_text_;
   int dimension_ = 2;
   std::size_t depth_ = 0;
   std::map<std::string, Shape> defined_;
@@ -255,10 +290,18 @@ class SceneParser {
 
 }  // namespace
 
-Result<Scene> parse_scene(std::string_view text, std::string_view file) {
+Result<Scene> parse_scene(std::string_view text, std::string_view file, const ReadText& read_text) {
   auto document = scene::parse_json(text, file);
   if (!document) return document.error();
-  return SceneParser(*document, file).parse();
+  return SceneParser(*document, file, read_text).parse();
+}
+
+Result<Scene> parse_program(std::string_view text, std::string_view file) {
+  auto shape = Shape::formula("vm", 0, text);
+  if (shape) return Scene{*shape, shape->dimension()};
+  Error error = shape.error();
+  error.file = file;
+  return error;
 }
 
 }  // namespace thalweg

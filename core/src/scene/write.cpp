@@ -35,6 +35,10 @@ Ordered node_json(const Shape& shape) {
   const OpRow& row = op_table()[static_cast<std::size_t>(shape.op_index())];
   Ordered node;
   node["op"] = std::string(row.name);
+  if (row.kind == OpKind::formula) {
+    node["text"] = std::string(shape.text());
+    return node;
+  }
   auto numbers = shape.parameters();
   for (const OpParameter& parameter : row.parameters) {
     const std::size_t count = parameter.arity == 0 ? numbers.size() : static_cast<std::size_t>(parameter.arity);
@@ -60,7 +64,9 @@ Ordered number_schema(const OpParameter& parameter) {
 
 Ordered parameter_schema(const OpParameter& parameter) {
   Ordered schema;
-  if (parameter.quantity == Quantity::choice) {
+  if (parameter.quantity == Quantity::text) {
+    schema["type"] = "string";
+  } else if (parameter.quantity == Quantity::choice) {
     schema["enum"] = Ordered::array();
     std::string_view rest = parameter.choices;
     for (bool more = true; more;) {
@@ -89,13 +95,25 @@ Ordered row_schema(const OpRow& row) {
     properties[std::string(parameter.name)] = parameter_schema(parameter);
     if (!parameter.optional) required.push_back(std::string(parameter.name));
   }
+  if (row.kind == OpKind::formula && row.parameters.size() > 1) {
+    Ordered one_of = Ordered::array();
+    for (const OpParameter& parameter : row.parameters) {
+      one_of.push_back({{"required", {std::string(parameter.name)}}});
+    }
+    return {{"type", "object"},
+            {"properties", properties},
+            {"required", required},
+            {"oneOf", one_of},
+            {"additionalProperties", false}};
+  }
+  const bool has_operands = row.kind != OpKind::primitive && row.kind != OpKind::formula;
   const Ordered node = {{"$ref", "#/$defs/node"}};
   if (row.kind == OpKind::combine) {
     properties["of"] = {{"anyOf", {node, {{"type", "array"}, {"items", node}, {"minItems", 1}}}}};
-  } else if (row.kind != OpKind::primitive) {
+  } else if (has_operands) {
     properties["of"] = {{"anyOf", {node, {{"type", "array"}, {"items", node}, {"minItems", 1}, {"maxItems", 1}}}}};
   }
-  if (row.kind != OpKind::primitive) required.push_back("of");
+  if (has_operands) required.push_back("of");
   return {{"type", "object"}, {"properties", properties}, {"required", required}, {"additionalProperties", false}};
 }
 

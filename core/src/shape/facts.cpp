@@ -45,6 +45,7 @@ class LevelBounds {
 
   Bounds compute(const Shape& shape, double level) {
     const Entry& entry = entry_of(shape);
+    if (entry.row.kind == OpKind::formula) return {};
     const int dimension = entry.row.kind == OpKind::primitive ? entry.row.dimension : shape.operands()[0].dimension();
     switch (entry.row.kind) {
       case OpKind::primitive:
@@ -59,6 +60,9 @@ class LevelBounds {
       }
       case OpKind::warp:
         return entry.preimage(operand(shape.operands()[0], level), shape.parameters());
+      case OpKind::formula:
+      case OpKind::scalar:
+        break;
     }
     return {};
   }
@@ -124,6 +128,8 @@ Facts derive_facts(const Shape& shape) {
   if (entry.row.kind == OpKind::primitive) {
     const ops::PrimitiveFacts own = entry.primitive_facts(shape.parameters());
     facts = {entry.row.dimension, own.outside, own.inside, 1.0, own.convex, entry.is_unsigned, {}};
+  } else if (entry.row.kind == OpKind::formula) {
+    return {shape.dimension(), Exactness::sign_only, Exactness::sign_only, Bounds::kInfinity, false, false, {}};
   } else {
     const ops::JoinedFacts own = own_facts(shape, entry);
     facts = {shape.operands()[0].dimension(), own.outside, own.inside, 0.0, own.convex, own.is_unsigned, {}};

@@ -4,8 +4,10 @@
 // The storage behind a Shape handle. Immutable once a handle to it has left Shape::make.
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "formula/formula.h"
 #include "thalweg/shape.h"
 
 namespace thalweg {
@@ -15,6 +17,8 @@ struct Shape::Node {
   int depth = 1;                   ///< longest chain of operands below, counting this node
   std::vector<double> parameters;  ///< flattened, directions and quaternions normalised
   std::vector<Shape> operands;
+  std::string text;          ///< formulas only
+  formula::Formula formula;  ///< formulas only
   Facts facts;
 };
 

@@ -82,6 +82,30 @@ Result<Shape> Shape::make(int op_index, std::span<const double> parameters, std:
   return made;
 }
 
+Result<Shape> Shape::formula(std::string_view op, int dimension, std::string_view text) {
+  const std::vector<int> rows = ops::find_ops(op, dimension);
+  const bool is_formula =
+      !rows.empty() && ops::registry()[static_cast<std::size_t>(rows[0])].row.kind == OpKind::formula;
+  if (!is_formula) {
+    return Error{.file = "", .place = "op", .expected = "expression or vm", .found = "\"" + std::string(op) + "\""};
+  }
+  auto made = op == "vm" ? formula::parse_program(text) : formula::parse_expression(text);
+  if (!made) return made.error();
+  if (dimension == 2 && made->uses(2)) {
+    return Error{.file = "", .place = "", .expected = "a formula of x and y in a scene of dimension 2", .found = "z"};
+  }
+  auto node = std::make_shared<Node>();
+  node->op = rows[0];
+  node->text = text;
+  node->facts.dimension = dimension != 0 ? dimension : made->uses(2) ? 3 : 2;
+  node->formula = *std::move(made);
+  Shape shape{node};
+  node->facts = shape::derive_facts(shape);
+  return shape;
+}
+
+std::string_view Shape::text() const { return node_->text; }
+const formula::Formula* Shape::formula() const { return node_->formula.steps.empty() ? nullptr : &node_->formula; }
 const Facts& Shape::facts() const { return node_->facts; }
 std::string_view Shape::op() const { return ops::registry()[static_cast<std::size_t>(node_->op)].row.name; }
 int Shape::op_index() const { return node_->op; }
@@ -128,6 +152,10 @@ Shape builder::made(std::string_view op, int dimension, std::span<const double> 
                     int variant) {
   if (dimension == kOfOperands) dimension = of.empty() ? 2 : of[0].dimension();
   return thalweg::made(Shape::make(op, dimension, numbers, std::move(of), variant));
+}
+
+Shape builder::made_formula(std::string_view op, std::string_view text, int dimension) {
+  return thalweg::made(Shape::formula(op, dimension, text));
 }
 
 std::size_t node_count(const Shape& shape) {

@@ -122,6 +122,12 @@ std::string describe(const OpParameter& parameter) {
 }
 
 std::optional<Error> validate(const Entry& entry, std::vector<double>& numbers, const std::vector<Shape>& of) {
+  if (entry.row.kind == OpKind::formula || entry.row.kind == OpKind::scalar) {
+    return Error{.file = "",
+                 .place = std::string(entry.row.name),
+                 .expected = "the text of a formula",
+                 .found = std::to_string(numbers.size()) + " numbers"};
+  }
   const std::size_t fixed = ops::number_count(entry.row);
   const bool has_list = !entry.row.parameters.empty() && entry.row.parameters.back().arity == 0;
   if (has_list ? numbers.size() % 2 != 0 || numbers.size() < fixed : numbers.size() != fixed) {

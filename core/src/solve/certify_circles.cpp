@@ -10,13 +10,17 @@
 
 #include "solve/ball_domain.inl"
 #include "solve/certify.inl"
+#include "solve/range_search.inl"
 
 HWY_BEFORE_NAMESPACE();
 namespace thalweg {
 namespace HWY_NAMESPACE {
 
 void certify_circles(const CircleTile& tile, TileScratch& scratch) {
-  if (tile.tape->dimension == 2) {
+  if (tile.tape->has_formulas) {
+    tile.tape->dimension == 2 ? RangeSearch<BallDomain<2>>(tile, scratch).run()
+                              : RangeSearch<BallDomain<3>>(tile, scratch).run();
+  } else if (tile.tape->dimension == 2) {
     Certifier<BallDomain<2>>(tile, scratch).run();
   } else {
     Certifier<BallDomain<3>>(tile, scratch).run();

@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include "solve/certify.inl"
+#include "solve/range_search.inl"
 #include "solve/triangle_domain.inl"
 
 HWY_BEFORE_NAMESPACE();
@@ -16,7 +17,10 @@ namespace thalweg {
 namespace HWY_NAMESPACE {
 
 void certify_triangles(const TriangleTile& tile, TileScratch& scratch) {
-  if (tile.tape->dimension == 2) {
+  if (tile.tape->has_formulas) {
+    tile.tape->dimension == 2 ? RangeSearch<TriangleDomain<2>>(tile, scratch).run()
+                              : RangeSearch<TriangleDomain<3>>(tile, scratch).run();
+  } else if (tile.tape->dimension == 2) {
     Certifier<TriangleDomain<2>>(tile, scratch).run();
   } else {
     Certifier<TriangleDomain<3>>(tile, scratch).run();

@@ -17,8 +17,10 @@ namespace {
 
 using HeapCell = TileScratch::HeapCell;
 
-/// A visit evaluates the enclosure, its centre's float32 rounding, and a probe's gradient, value and rounding.
+/// A visit evaluates the enclosure, its centre's float32 rounding, and a probe's gradient, value and rounding; with
+/// formulas also the ranges at the two points and their roundings.
 constexpr std::uint32_t kMostPerVisit = 5;
+constexpr std::uint32_t kMostPerVisitByRanges = 9;
 /// Open cells held at once: 64 MB at the most, whatever the budget.
 constexpr std::size_t kMostCells = std::size_t{1} << 20;
 
@@ -27,6 +29,7 @@ struct Decision {
   double lower = 0;      ///< proven lower bound of f over the region
   float point[3] = {};   ///< the deepest point found, as reported
   double u = 0, v = 0;   ///< its barycentric coordinates of the second and third corner
+  double error = 0;      ///< f there is at most value + error, proven
   bool witness = false;  ///< f < 0 is proven at `point` and at the point of the region that it was rounded from
   bool closed = false;   ///< the goal was reached
   std::uint32_t evaluations = 0;
@@ -42,7 +45,11 @@ bool higher(const HeapCell& a, const HeapCell& b) { return a.lo > b.lo; }
 class Search {
  public:
   Search(const Region64& region, const SolveLimits& limits, TileScratch& scratch)
-      : region_(region), limits_(limits), twin_(scratch.twin), heap_(scratch.heap) {
+      : region_(region),
+        limits_(limits),
+        twin_(scratch.twin),
+        heap_(scratch.heap),
+        by_ranges_(scratch.twin.tape().has_formulas) {
     heap_.clear();
     const auto d = static_cast<std::size_t>(region.dimension);
     double largest = 0;
@@ -50,9 +57,8 @@ class Search {
       for (std::size_t axis = 0; axis < d; ++axis) largest = std::max(largest, std::fabs(region.corner[corner][axis]));
     }
     slack_ = limits.slack64(largest + region.radius);
+    place_ = by_ranges_ ? kPlaceRounding * Twin::kSlackRatio * (largest + region.radius) : 0;
   }
-
-  [[nodiscard]] double slack() const { return slack_; }
 
   /// Keeps every cell that the search ends with, and its bound.
   void keep_cells(std::vector<HeapCell>& kept) { kept_ = &kept; }
@@ -63,8 +69,8 @@ class Search {
     best_.lower = std::numeric_limits<double>::infinity();
     most_evaluations_ = evaluations;
     best_.witness = false;
-    best_.value = std::numeric_limits<double>::infinity();
     best_.value = value_at(start.point);
+    best_.error = error_at(start.point, best_.value);
     if (!region_.is_ball) {
       double exact[3] = {};
       locate(start.u, start.v, exact);
@@ -73,7 +79,7 @@ class Search {
     }
     visit(region_.is_ball ? HeapCell{.lo = 0, .at = {0, 0, 0, 1}} : HeapCell{.lo = 0, .at = {0, 0, 1, 0, 0, 1}});
     const std::uint32_t children = region_.is_ball ? 1U << region_.dimension : 2U;
-    while (!heap_.empty() && !satisfied() && best_.evaluations + children * kMostPerVisit <= most_evaluations_ &&
+    while (!heap_.empty() && !satisfied() && best_.evaluations + children * most_per_visit() <= most_evaluations_ &&
            heap_.size() < kMostCells && !settled()) {
       std::pop_heap(heap_.begin(), heap_.end(), higher);
       const HeapCell parent = heap_.back();
@@ -88,6 +94,7 @@ class Search {
   }
 
  private:
+  [[nodiscard]] std::uint32_t most_per_visit() const { return by_ranges_ ? kMostPerVisitByRanges : kMostPerVisit; }
   [[nodiscard]] bool satisfied() const { return limits_.goal == Goal::verdict && best_.witness; }
 
   /// Short of a proven sign, the goal is reached, and either double can tell no more or enough has been tried.
@@ -95,8 +102,8 @@ class Search {
     const double lower = std::min(best_.lower, heap_.front().lo);
     const bool reached = limits_.goal == Goal::deepest
                              ? best_.value - lower <= limits_.tolerance
-                             : best_.value + slack_ <= limits_.tolerance && lower >= -limits_.tolerance;
-    const bool exhausted = heap_.front().lo >= best_.value - 2 * slack_;
+                             : best_.value + best_.error <= limits_.tolerance && lower >= -limits_.tolerance;
+    const bool exhausted = heap_.front().lo >= best_.value - 2 * best_.error;
     return reached && (exhausted || best_.evaluations > limits_.budget / kTouchingEffort);
   }
 
@@ -111,7 +118,25 @@ class Search {
     double exact[3] = {};
     std::copy_n(point, region_.dimension, exact);
     ++best_.evaluations;
-    return twin_.value(exact);
+    return finite(twin_.value(exact));
+  }
+  /// Where a formula is undefined every other value is better.
+  static double finite(double value) { return std::isfinite(value) ? value : std::numeric_limits<double>::infinity(); }
+
+  /// What f may be above `value`, the one computed at a point.
+  double error_at(const float* point, double value) {
+    double exact[3] = {};
+    for (int axis = 0; axis < region_.dimension; ++axis) exact[axis] = static_cast<double>(point[axis]);
+    return error_at(exact, value);
+  }
+  double error_at(const double* point, double value) {
+    if (!by_ranges_) return slack_;
+    Cell64 cell;
+    cell.is_box = true;
+    cell.place = place_;
+    ++best_.evaluations;
+    const double error = twin_.enclose(point, cell).hi + slack_ - value;
+    return std::isnan(error) ? std::numeric_limits<double>::infinity() : error * (1 + 0x1p-50);
   }
 
   /// Makes a point of the region the incumbent if f is lower at its float32 rounding. A witness needs both to be
@@ -120,9 +145,14 @@ class Search {
     float point[3] = {};
     for (int axis = 0; axis < region_.dimension; ++axis) point[axis] = static_cast<float>(exact[axis]);
     const double rounded = value_at(point);
-    const bool witness = value < -slack_ && rounded < -slack_;
+    const bool may_be_witness = value < -slack_ && rounded < -slack_;
+    const bool is_candidate = rounded < best_.value || (may_be_witness && !best_.witness);
+    if (by_ranges_ && !is_candidate) return;
+    const double error = error_at(point, rounded);
+    const bool witness = by_ranges_ ? value + error_at(exact, value) < 0 && rounded + error < 0 : may_be_witness;
     if (best_.witness ? !witness || rounded >= best_.value : !witness && rounded >= best_.value) return;
     best_.value = rounded;
+    best_.error = error;
     best_.witness = witness;
     std::copy_n(point, region_.dimension, best_.point);
     best_.u = u;
@@ -133,6 +163,7 @@ class Search {
     double centre[3] = {};
     Cell64 shape;
     if (region_.is_ball ? !ball_cell(cell, centre, shape) : !triangle_cell(cell, centre, shape)) return;
+    shape.place = place_;
     const Enclosure64 f = twin_.enclose(centre, shape);
     ++best_.evaluations;
     cell.lo = f.lo - slack_;
@@ -143,7 +174,7 @@ class Search {
       if (!region_.is_ball) probe(cell, centre, shape);
     }
     // Too small to learn more from, in double as well.
-    const bool at_the_end = shape.reach <= slack_ / 4;
+    const bool at_the_end = shape.reach <= (by_ranges_ ? place_ : slack_ / 4);
     const bool closed = is_closed(cell.lo);
     if (closed || at_the_end) {
       gave_up_ = gave_up_ || !closed;
@@ -268,12 +299,16 @@ class Search {
   Decision best_;
   bool gave_up_ = false;  ///< some cell was too small for double
   double slack_ = 0;
+  const bool by_ranges_;  ///< bounds and witnesses are proven by intervals, which carry a formula's rounding
+  double place_ = 0;      ///< how far places may be off
   std::uint32_t most_evaluations_ = 0;
 };
 
 }  // namespace
 
-bool can_decide(std::uint32_t evaluations) { return evaluations > 3 + kMostPerVisit; }
+bool can_decide(std::uint32_t evaluations, bool by_ranges) {
+  return evaluations > (by_ranges ? 6 + kMostPerVisitByRanges : 3 + kMostPerVisit);
+}
 
 bool goal_reached(const SolveLimits& limits, const QueryState& state, std::size_t q, float lower) {
   const auto tolerance = static_cast<float>(limits.tolerance);
@@ -301,7 +336,7 @@ void decide_in_double(const Region64& region, const SolveLimits& limits, QuerySt
   }
   state.lower[q] = std::max(state.lower[q], rounded_down(found.lower));
   // What is said from here on has double's slack.
-  state.slack[q] = static_cast<float>(search.slack() * 1.001);
+  state.slack[q] = static_cast<float>(found.error * 1.001);
   state.converged[q] = found.closed || goal_reached(limits, state, q, state.lower[q]) ? 1 : 0;
 }
 
@@ -327,7 +362,7 @@ void record_in_double(const Region64& region, const SolveLimits& limits, std::ui
     made.bound = cell.lo;
     proof.lower = std::min(proof.lower, cell.lo);
   }
-  const bool brackets = found.value + search.slack() <= limits.tolerance && proof.lower >= -limits.tolerance;
+  const bool brackets = found.value + found.error <= limits.tolerance && proof.lower >= -limits.tolerance;
   proof.status = found.witness     ? Status::overlapping
                  : proof.lower > 0 ? Status::separated
                  : brackets        ? Status::touching

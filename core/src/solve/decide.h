@@ -21,7 +21,7 @@ struct Region64 {
 inline constexpr std::uint32_t kTouchingEffort = 4;
 
 /// Whether a budget is enough to begin.
-[[nodiscard]] bool can_decide(std::uint32_t evaluations);
+[[nodiscard]] bool can_decide(std::uint32_t evaluations, bool by_ranges = false);
 
 /// Searches on for query q of a tile with what is left of its budget, and puts what is found into its state.
 void decide_in_double(const Region64& region, const SolveLimits& limits, QueryState& state, std::size_t q,

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "solve/prove.h"
+
 namespace thalweg {
 
 DescentLanes::DescentLanes(const TriangleTile& tile, TileScratch& scratch)
@@ -148,6 +150,16 @@ void DescentLanes::adopt(const Stopped& stopped, float value, std::size_t lane) 
   state_.stop[q] = static_cast<std::uint8_t>(stopped.why);
 }
 
-void DescentLanes::finish() { tile_.kernels->finish(tile_, state_, kernel_scratch_, arena_); }
+void DescentLanes::finish() {
+  if (tile_.tape->has_formulas) {
+    prove_incumbents(tile_, state_, kernel_scratch_, arena_, [this](std::size_t q) {
+      const float* const corners = row(q);
+      const auto by_size = [](float a, float b) { return std::fabs(a) < std::fabs(b); };
+      return static_cast<double>(std::fabs(*std::max_element(corners, corners + 3 * dimension_, by_size)));
+    });
+    for (std::size_t q = 0; q < tile_.count; ++q) conclude_undefined(state_, q);
+  }
+  tile_.kernels->finish(tile_, state_, kernel_scratch_, arena_);
+}
 
 }  // namespace thalweg

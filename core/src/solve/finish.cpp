@@ -141,7 +141,8 @@ void write_values(const QueryTile& tile, const QueryState& s) {
     const auto value = hn::LoadU(d, s.value + i);
     if (out.value != nullptr) store_floats(shown(value).v, out.value + i, count);
     if (out.lower != nullptr) {
-      store_floats(shown(hn::Min(hn::LoadU(d, s.lower + i), value)).v, out.lower + i, count);
+      const auto lower = hn::LoadU(d, s.lower + i);
+      store_floats(shown(hn::IfThenElse(hn::Lt(value, lower), value, lower)).v, out.lower + i, count);
     }
     if (out.point != nullptr) {
       Point<Pack<1>, D> p;
@@ -178,7 +179,8 @@ void write_normals(const QueryTile& tile, const QueryState& s, float* scratch, A
     if constexpr (D == 3) g.z = Make<P>::load(gradient[2] + i);
     const P square = dot(g, g);
     const auto bad = is_set(s.is_bad + i);
-    const auto vanishes = square <= Make<P>::set(1e-6F);
+    // NaN, where a formula is undefined, is no direction either.
+    const PackMask<1> vanishes{hn::Not(hn::Gt(square.v, hn::Set(F32(), 1e-6F)))};
     Point<P, D> fixed = splat<P, D>(zero<P>());
     if constexpr (D == 2) {
       fixed.y = one<P>();

@@ -109,7 +109,7 @@ Result<SolveLimits> plan(const Tape& tape, QueryKind kind, const CollideOptions&
   limits.slack = tape.search_slack;
   const bool is_long = tape.instructions.size() >= kLongTape;
   limits.far_reaches = !is_long ? kFarReaches : options.goal == Goal::deepest ? kFarReachesOfLongTapes : 0;
-  limits.slack64 = {.a = limits.slack.a * Twin::kSlackRatio, .b = limits.slack.b * Twin::kSlackRatio};
+  limits.slack64 = {.a = tape.enclosure_slack.a * Twin::kSlackRatio, .b = tape.enclosure_slack.b * Twin::kSlackRatio};
   limits.feature = options.feature > 0 ? options.feature : default_feature(tape);
   auto ruled = with_rules(limits, options, row);
   if (!ruled || options.method == Method::certified || !triangles) return ruled;

@@ -6,9 +6,11 @@
 // `claimed`. A 1-Lipschitz f does prove the other side: f(centre) - L radius > 0 separates.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "solve/descend.h"
 #include "solve/finish.h"
+#include "solve/prove.h"
 
 namespace thalweg {
 namespace {
@@ -35,6 +37,7 @@ class Publisher {
     for (std::size_t q = 0; q < tile_.count; ++q) move_to_deepest(q);
     tile_.kernels->value(*tile_.tape, state_.point, tile_.count, state_.value, kernel_scratch_);
     for (std::size_t q = 0; q < tile_.count; ++q) conclude(q);
+    if (tile_.tape->has_formulas) prove();
     tile_.kernels->finish(tile_, state_, kernel_scratch_, arena_);
     if (tile_.columns.claimed == nullptr) return;
     for (std::size_t q = 0; q < tile_.count; ++q) {
@@ -84,6 +87,22 @@ class Publisher {
     ++state_.evaluations[q];
     state_.iterations[q] = 1;
     state_.barycentric[0][q] = state_.barycentric[1][q] = 0;
+  }
+
+  /// A formula has no Lipschitz constant: only the point is proven.
+  void prove() {
+    std::fill_n(state_.lower, tile_.count, -std::numeric_limits<float>::infinity());
+    prove_incumbents(tile_, state_, kernel_scratch_, arena_, [this](std::size_t q) {
+      double largest = 0;
+      for (std::size_t axis = 0; axis < d_; ++axis) {
+        largest = std::max(largest, std::fabs(static_cast<double>(row(q)[axis])));
+      }
+      return largest + static_cast<double>(radius(q));
+    });
+    for (std::size_t q = 0; q < tile_.count; ++q) {
+      conclude_undefined(state_, q);
+      if (tile_.limits->goal == Goal::deepest) state_.converged[q] = 0;
+    }
   }
 
   const CircleTile& tile_;

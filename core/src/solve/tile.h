@@ -35,7 +35,7 @@ struct SolveLimits {
   double feature = 0;
   float far_reaches = 0;  ///< far points (far_points.inl) are at most so many reaches of the query away
   Affine slack;           ///< of a float32 evaluation in a search: rounding of values, centres and bounds
-  Affine slack64;         ///< the same in double
+  Affine slack64;         ///< the same in double; with formulas, of enclosures
 };
 
 struct QueryTile {

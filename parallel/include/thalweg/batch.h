@@ -35,7 +35,7 @@ struct Summary {
 };
 
 /// f at N points, rows (N,d) in C order, and its gradient by `autodiff`; `gradient` (N,d) and `value` (N) may be null.
-/// A bad row gives NaN. Returns how many rows were bad.
+/// A bad row gives NaN, as does one where a formula is undefined. Returns how many rows were bad.
 std::size_t evaluate(const Tape& tape, const float* points, std::size_t count, float* value, float* gradient,
                      const Execution& execution = {});
 
@@ -47,6 +47,7 @@ struct Points {
 
 struct EvaluateSummary {
   std::size_t rows = 0, bad_rows = 0;
+  std::size_t undefined_rows = 0;  ///< where a formula is not defined: NaN
   std::uint64_t evaluations = 0;
   bool cancelled = false;
 };

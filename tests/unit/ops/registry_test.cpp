@@ -45,7 +45,7 @@ TEST(OpTable, SaysWhatEveryOpAndParameterIs) {
       EXPECT_NE(p.name, "of");
       EXPECT_FALSE(p.meaning.empty()) << row.name << ' ' << p.name;
       EXPECT_EQ(p.quantity == Quantity::choice, !p.choices.empty()) << row.name << ' ' << p.name;
-      if (p.quantity != Quantity::choice) {
+      if (p.quantity != Quantity::choice && p.quantity != Quantity::text) {
         EXPECT_LT(p.least, p.most) << row.name << ' ' << p.name;
       }
       // A list takes all numbers that are left, so it must be the last.
@@ -71,6 +71,13 @@ TEST(Registry, HasEveryPieceThatAKindNeeds) {
     switch (entry.row.kind) {
       case OpKind::primitive:
         EXPECT_TRUE(entry.derive && entry.primitive_facts && entry.primitive_bounds) << name;
+        break;
+      case OpKind::formula:
+        EXPECT_EQ(entry.row.parameters.front().quantity, Quantity::text) << name;
+        break;
+      case OpKind::scalar:
+        EXPECT_EQ(entry.evaluate != nullptr && entry.enclose != nullptr, entry.operands > 0) << name;
+        EXPECT_TRUE(entry.opcode.empty() || find_opcode(entry.opcode) >= 0) << name;
         break;
       case OpKind::combine:
         EXPECT_TRUE(entry.derive && entry.join && entry.widening) << name;

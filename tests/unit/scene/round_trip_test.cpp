@@ -48,6 +48,7 @@ void expect_same_field(const Shape& a, const Shape& b, std::uint64_t seed) {
 TEST(SceneText, OfEveryOpReadsBackAsTheSameField) {
   for (int op = 0; op < static_cast<int>(op_table().size()); ++op) {
     const OpRow& row = op_table()[static_cast<std::size_t>(op)];
+    if (row.kind == OpKind::formula) continue;
     for (std::uint64_t i = 0; i < 10; ++i) {
       Random random(1000 * static_cast<std::uint64_t>(op) + i);
       const int dimension = row.dimension != 0 ? row.dimension : 2 + static_cast<int>(i % 2);

@@ -51,13 +51,17 @@ TEST(SceneSchema, HasEveryOpWithItsParametersAndRanges) {
     ASSERT_NE(node, nullptr) << row.name;
     EXPECT_EQ((*node)["additionalProperties"], false) << row.name;
     const std::set<std::string> required((*node)["required"].begin(), (*node)["required"].end());
-    EXPECT_EQ(required.count("of"), row.kind == OpKind::primitive ? 0U : 1U) << row.name;
+    const bool is_leaf = row.kind == OpKind::primitive || row.kind == OpKind::formula;
+    EXPECT_EQ(required.count("of"), is_leaf ? 0U : 1U) << row.name;
     for (const OpParameter& p : row.parameters) {
       if (p.implicit) continue;
       EXPECT_EQ(required.count(std::string(p.name)), p.optional ? 0U : 1U) << row.name << ' ' << p.name;
       const json& parameter = (*node)["properties"][std::string(p.name)];
       EXPECT_FALSE(parameter["description"].get<std::string>().empty()) << row.name << ' ' << p.name;
-      if (p.arity != 1 || p.quantity == Quantity::choice) continue;
+      if (p.quantity == Quantity::text) {
+        EXPECT_EQ(parameter["type"], "string") << row.name << ' ' << p.name;
+      }
+      if (p.arity != 1 || p.quantity == Quantity::choice || p.quantity == Quantity::text) continue;
       EXPECT_EQ(parameter["minimum"], p.least) << row.name << ' ' << p.name;
       EXPECT_EQ(parameter["maximum"], p.most) << row.name << ' ' << p.name;
     }

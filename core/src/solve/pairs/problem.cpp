@@ -194,6 +194,9 @@ Result<bool> check_pairs(const PairQueries& queries, const PairOptions& options)
     return refused("--region", "a length of at least 0 (0: the default)", "another number");
   }
   if (options.budget == 0) return refused("--budget", "at least 1 evaluation", "0");
+  for (std::size_t i = 0; i < queries.shape_count; ++i) {
+    if (queries.shapes[i]->has_formulas) return refused("shapes", "shapes with a Lipschitz constant", "a formula");
+  }
   if (queries.shape_count < 2 && queries.pairs == nullptr) return refused("shapes", "two shapes", "fewer");
   for (std::size_t row = 0; row < queries.count; ++row) {
     const PairShapes shapes = shapes_of(queries, row);
