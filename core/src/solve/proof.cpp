@@ -3,6 +3,7 @@
 #include "thalweg/proof.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "solve/plan.h"
@@ -59,8 +60,11 @@ Result<Proof> prove(QueryKind kind, const Tape& tape, const float* row, const Co
   }
   proof.u = barycentric[1];
   proof.v = barycentric[2];
-  // What touches is to be shown to touch, and no more is to be spent on it.
+  // What touches is to be shown to touch, and no more is to be spent on it. A sign is to be shown again by enclosures
+  // alone, whatever it takes: the row's own search also had far points.
   SolveLimits again = *limits;
+  const bool is_sure = proof.row_status == Status::separated || proof.row_status == Status::overlapping;
+  if (is_sure) again.budget = std::numeric_limits<std::uint32_t>::max();
   if (proof.row_status == Status::touching) again.budget = 1;
   record_in_double(region, again, std::max(limits->budget, kLeastEvaluations), scratch, proof);
   return proof;
