@@ -107,11 +107,37 @@ struct Spans {
 // A pass over a span computes whole vectors. What it stores beyond the span's end belongs to the next one, which is
 // stored later.
 
-/// The lanes of `which` side by side at `to`, where a whole vector is stored. Returns how many they are.
+/// For each set of eight lanes: those in the set, then the others.
+struct PackTable {
+  uint8_t lane[256][8] = {};
+  constexpr PackTable() {
+    for (int set = 0; set < 256; ++set) {
+      int count = 0;
+      for (const int in_set : {1, 0}) {
+        for (int i = 0; i < 8; ++i) {
+          if ((set >> i & 1) == in_set) lane[set][count++] = static_cast<uint8_t>(i);
+        }
+      }
+    }
+  }
+};
+inline constexpr PackTable kPackTable;
+
+/// The lanes of `which` side by side at `to`, where a whole vector is stored. Returns how many they are. Where there is
+/// no instruction for it Highway has a table, but a local one, which compilers copy to the stack for every vector.
 template <class V, class M>
 HWY_INLINE size_t pack(V v, M which, hn::TFromV<V>* to) {
-  hn::StoreU(hn::Compress(v, which), hn::DFromV<V>(), to);
-  return hn::CountTrue(hn::DFromV<V>(), which);
+  const hn::DFromV<V> d;
+  if constexpr (HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_SSE4) {
+    uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, which, bits);
+    const hn::RebindToUnsigned<decltype(d)> du;
+    const auto lanes = hn::PromoteTo(du, hn::LoadU(hn::Rebind<uint8_t, decltype(d)>(), kPackTable.lane[bits[0]]));
+    hn::StoreU(hn::TableLookupLanes(v, hn::IndicesFromVec(d, lanes)), d, to);
+  } else {
+    hn::StoreU(hn::Compress(v, which), d, to);
+  }
+  return hn::CountTrue(d, which);
 }
 
 /// B's coordinates of points in A's.
