@@ -4,6 +4,7 @@
 // What growing costs, all sizes by turns within each round: growth/primitives, /queries, /streaming and /threads.
 //   ns_at_<x>        time per query at size x, the median of the rounds
 //   exponent         b of the fitted time = a x^b: of a query for primitives and threads, of a whole batch otherwise
+//   processor_time_added  of growth/threads: what all threads together use beyond one thread's, as a share of it
 //   serial_fraction  of growth/threads, after A. Karp and H. Flatt, "Measuring parallel processor performance" (1990)
 #include <benchmark/benchmark.h>
 
@@ -12,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -312,17 +314,23 @@ void threads(benchmark::State& state) {
   Verdicts work(scene->tape, rows);
   work.run(work.status.size(), 1);
   const auto one_thread = work.status;
+  Samples added;
   for (auto _ : state) {
     double sum = 0;
+    std::vector<double> processor;
     for (std::size_t i = 0; i < sizes.size(); ++i) {
+      const std::clock_t before = std::clock();
       const double time = seconds([&] { work.run(work.status.size(), static_cast<int>(sizes[i])); });
+      processor.push_back(static_cast<double>(std::clock() - before));
       if (work.status != one_thread) return refuse(state, "other threads, other answers");
       growth.add(i, time);
       sum += time;
     }
+    added.add(processor.back() / processor.front() - 1);
     state.SetIterationTime(sum);
   }
   finish(state, growth, std::vector<std::size_t>(sizes.size(), work.status.size()));
+  state.counters["processor_time_added"] = added.median();
   const double speed_up = growth.median(0) / growth.median(sizes.size() - 1);
   const double inverse = 1 / static_cast<double>(cores);
   state.counters["vs_one_thread"] = speed_up;

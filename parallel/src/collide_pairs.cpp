@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "reuse.h"
 #include "schedule.h"
 #include "solve/pairs/local.h"
 #include "solve/pairs/problem.h"
@@ -17,9 +18,31 @@ namespace {
 /// Queries per tile: a pair takes microseconds, a hard one a millisecond.
 constexpr std::size_t kTile = 32;
 
+/// What a batch leaves for the next one.
+struct Memory {
+  std::vector<std::unique_ptr<PairScratch>> workers;
+  // Columns that the caller does not ask for.
+  std::vector<std::uint8_t> status;
+  std::vector<std::uint32_t> evaluations;
+  std::vector<float> point, contact_point;
+};
+
+/// Room for `count` entries, where they are wanted.
+template <class T>
+T* room(std::vector<T>& memory, T* asked, std::size_t count) {
+  if (asked != nullptr || count == 0) return asked;
+  if (memory.size() < count) memory.resize(count);
+  return memory.data();
+}
+
 class PairTask final : public TileTask {
  public:
-  PairTask(const PairTile& all, const Execution& execution) : all_(all), workers_(worker_count(execution)) {}
+  PairTask(const PairTile& all, Memory& memory, const Execution& execution) : all_(all), workers_(memory.workers) {
+    workers_.resize(std::max(workers_.size(), worker_count(execution)));
+    for (const auto& scratch : workers_) {
+      if (scratch != nullptr) scratch->begin(*all.queries);
+    }
+  }
 
   void run(std::size_t begin, std::size_t end, std::size_t index) override {
     std::unique_ptr<PairScratch>& scratch = workers_[index];
@@ -32,7 +55,7 @@ class PairTask final : public TileTask {
 
  private:
   const PairTile& all_;
-  std::vector<std::unique_ptr<PairScratch>> workers_;
+  std::vector<std::unique_ptr<PairScratch>>& workers_;
 };
 
 }  // namespace
@@ -41,27 +64,25 @@ Result<Summary> collide_pairs(const PairQueries& queries, const PairOptions& opt
                               const PairContacts& contacts, const Execution& execution, const PairPaths& paths) {
   const auto checked = check_pairs(queries, options);
   if (!checked) return checked.error();
-  // The summary counts what the caller may not have asked for.
-  std::vector<std::uint8_t> status(columns.status == nullptr ? queries.count : 0);
-  std::vector<std::uint32_t> evaluations(columns.evaluations == nullptr ? queries.count : 0);
   // Normals by a strategy are taken where the points are.
   const bool wants_points = strategy_of(options) != Gradient::autodiff && queries.count > 0;
   const std::size_t floats = wants_points ? queries.count * static_cast<std::size_t>(queries.shapes[0]->dimension) : 0;
-  std::vector<float> point(columns.point == nullptr ? floats : 0);
-  std::vector<float> contact_point(contacts.normal != nullptr && contacts.point == nullptr ? floats * contacts.capacity
-                                                                                           : 0);
+  const Reused<Memory> memory;
   PairTile all;
   all.queries = &queries;
   all.options = &options;
   all.kernels = (execution.target == nullptr ? &default_target() : execution.target)->kernels;
   all.columns = columns;
-  if (columns.status == nullptr) all.columns.status = status.data();
-  if (!point.empty()) all.columns.point = point.data();
-  if (columns.evaluations == nullptr) all.columns.evaluations = evaluations.data();
+  // The summary counts what the caller may not have asked for.
+  all.columns.status = room(memory->status, columns.status, queries.count);
+  all.columns.evaluations = room(memory->evaluations, columns.evaluations, queries.count);
+  all.columns.point = room(memory->point, columns.point, floats);
   all.contacts = contacts;
-  if (!contact_point.empty()) all.contacts.point = contact_point.data();
+  if (contacts.normal != nullptr) {
+    all.contacts.point = room(memory->contact_point, contacts.point, floats * contacts.capacity);
+  }
   all.paths = paths;
-  PairTask task(all, execution);
+  PairTask task(all, *memory, execution);
   Summary summary;
   summary.cancelled = !schedule(task, queries.count, execution.tile == 0 ? kTile : execution.tile, execution);
   summary.rows = queries.count;

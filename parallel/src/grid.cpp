@@ -89,6 +89,7 @@ class Places {
       region.centre[axis] = static_cast<float>(middle);
       square += half * half;
       largest = std::max(largest, std::fabs(middle) + half);
+      region.half[axis] = static_cast<float>(1.000001 * half + 0x1p-22 * (std::fabs(middle) + half));
     }
     region.reach = static_cast<float>(1.000001 * std::sqrt(square) + 0x1p-22 * largest);
     return largest < 0.999 * static_cast<double>(kLargestCoordinate);

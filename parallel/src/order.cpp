@@ -16,6 +16,8 @@ namespace thalweg {
 namespace {
 
 constexpr std::size_t kRowsPerTask = 8192;
+/// About so many rows say where the grid of cells lies.
+constexpr std::size_t kSampledRows = 4096;
 /// Of each axis: some cells a row, but no more than 2^16 in the plane and 2^15 in space.
 std::size_t halvings_for(std::size_t dimension, std::size_t count) {
   return std::min<std::size_t>(dimension == 2 ? 8 : 5, static_cast<std::size_t>(std::bit_width(count)) / dimension + 1);
@@ -40,7 +42,7 @@ class Cells {
     last_ = cells - 1;
     for (std::size_t axis = 0; axis < layout.dimension; ++axis) {
       const float size = extent.hi[axis] - extent.lo[axis];
-      lo_[axis] = extent.lo[axis];
+      lo_[axis] = size > 0 ? extent.lo[axis] : 0;  // there may be no extent
       per_unit_[axis] = size > 0 ? cells / size : 0;
     }
   }
@@ -86,18 +88,28 @@ void SpatialOrder::sort(const RowLayout& layout, const float* rows, std::size_t 
   found_.assign(worker_count(execution), {});
   cell_.resize(count);
   with_row(layout, [&]<class Row>(Row row) {
+    sample_ = {};
+    for (std::size_t i = 0; i < count; i += std::max<std::size_t>(count / kSampledRows, 1)) {
+      Extent first_point;
+      const float* const at = rows + i * Row::kWidth;
+      if (!row.is_answerable(at)) continue;
+      std::copy_n(at, layout.dimension, first_point.lo);
+      std::copy_n(at, layout.dimension, first_point.hi);
+      sample_.add(first_point);
+    }
+    const Cells cells(layout, sample_, halvings_);
     for_rows(count, execution, [&](std::size_t begin, std::size_t end, std::size_t worker) {
       Extent extent;
-      for (std::size_t i = begin; i < end; ++i) extent.add(row.extent(rows + i * Row::kWidth));
+      for (std::size_t i = begin; i < end; ++i) {
+        const float* const at = rows + i * Row::kWidth;
+        extent.add(row.extent(at));
+        cell_[i] = cells.of(at, row);
+      }
       found_[worker].add(extent);
     });
-    all_ = {};
-    for (const Extent& extent : found_) all_.add(extent);
-    const Cells cells(layout, all_, halvings_);
-    for_rows(count, execution, [&](std::size_t begin, std::size_t end, std::size_t) {
-      for (std::size_t i = begin; i < end; ++i) cell_[i] = cells.of(rows + i * Row::kWidth, row);
-    });
   });
+  all_ = {};
+  for (const Extent& extent : found_) all_.add(extent);
   begin_.assign((std::size_t{1} << levels()) + 1, 0);
   for (const std::uint16_t cell : cell_) ++begin_[cell + std::size_t{1}];
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
@@ -118,13 +130,16 @@ Extent SpatialOrder::extent_of(std::size_t first_cell, int level) const {
       index |= (first_cell >> bit & 1) << place;
       if (bit < static_cast<std::size_t>(level)) wide *= 2;
     }
-    const auto lo = static_cast<double>(all_.lo[axis]), hi = static_cast<double>(all_.hi[axis]);
+    const auto lo = static_cast<double>(sample_.lo[axis]), hi = static_cast<double>(sample_.hi[axis]);
     const double size = (hi - lo) / cells;
     // A cell's number is rounded, and its rows reach beyond it.
     const double margin =
         0.01 * size + 1e-6 * std::max(std::fabs(lo), std::fabs(hi)) + static_cast<double>(all_.largest_row);
-    box.lo[axis] = static_cast<float>(lo + static_cast<double>(index) * size - margin);
-    box.hi[axis] = static_cast<float>(lo + static_cast<double>(index + wide) * size + margin);
+    // The cells at the rim hold what lies outside of the sample.
+    const bool is_first = index == 0 || !(hi > lo);
+    const bool is_last = index + wide == std::size_t{1} << halvings_ || !(hi > lo);
+    box.lo[axis] = is_first ? all_.lo[axis] : static_cast<float>(lo + static_cast<double>(index) * size - margin);
+    box.hi[axis] = is_last ? all_.hi[axis] : static_cast<float>(lo + static_cast<double>(index + wide) * size + margin);
   }
   box.largest_row = all_.largest_row;
   return box;

@@ -103,6 +103,7 @@ class SpatialOrder {
 
  private:
   RowLayout layout_;
+  Extent sample_;  ///< first points of some rows: where the grid lies
   Extent all_;
   std::size_t halvings_ = 0;  ///< of each axis
   std::vector<std::uint32_t> rows_, begin_;

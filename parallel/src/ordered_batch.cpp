@@ -159,10 +159,12 @@ Region OrderedBatch::region_of(const Extent& extent) const {
     const double half = std::max(static_cast<double>(extent.hi[axis]) - static_cast<double>(region.centre[axis]),
                                  static_cast<double>(region.centre[axis]) - static_cast<double>(extent.lo[axis]));
     square += half * half;
+    region.half[axis] = static_cast<float>(half);
   }
   // Kinks are looked for a little way around the rows.
   const float around = std::max(tie_reach(tape_, largest), surroundings_.sizes * extent.largest_row);
   region.reach = static_cast<float>((std::sqrt(square) + static_cast<double>(around)) * 1.000001);
+  for (float& half : region.half) half = (half + around) * 1.000001F;
   region.cell_reach = surroundings_.bounds ? extent.largest_row : 0;
   return region;
 }
@@ -181,7 +183,9 @@ void OrderedBatch::widen_by_probes(const Tape& tape, std::vector<Region>& region
   for (std::size_t i = 0; i < regions.size(); ++i) {
     // |f| grows by no more than the way, and a probe's place is rounded.
     const float most = std::fabs(value[i]) + 1.001F * static_cast<float>(tape_.facts.lipschitz) * regions[i].reach;
-    regions[i].reach += 1.001F * std::max(probe.absolute, probe.of_value * most);
+    const float further = 1.001F * std::max(probe.absolute, probe.of_value * most);
+    regions[i].reach += further;
+    for (float& half : regions[i].half) half += further;
   }
 }
 

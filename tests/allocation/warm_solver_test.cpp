@@ -233,6 +233,22 @@ TEST(WarmBatch, AllocatesNothing) {
   }
 }
 
+TEST(WarmBatchOfPairs, AllocatesNothing) {
+  constexpr std::size_t kCount = 200;
+  const Tape tape = std::move(compile(torus(0.35, 0.15))).value();
+  const Tape* const shapes[2] = {&tape, &tape};
+  oracle::Random random(9);
+  std::vector<float> poses(7 * kCount), point(3 * kCount);
+  for (float& x : poses) x = static_cast<float>(random.uniform(-0.5, 0.5));
+  CollideColumns columns;
+  columns.point = point.data();
+  const auto run = [&] {
+    static_cast<void>(collide_pairs({shapes, 2, poses.data(), nullptr, kCount}, {}, columns, {}, {.threads = 1}));
+  };
+  for (int round = 0; round < 3; ++round) run();
+  EXPECT_EQ(allocations_of(run), 0U);
+}
+
 TEST(WarmGrid, AllocatesNothing) {
   const Tape tape = std::move(compile(flat_and_round())).value();
   const Grid grid{.origin = {-4, -4}, .step = {{0.02}, {0, 0.02}}, .size = {400, 400, 1}};

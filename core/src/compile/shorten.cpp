@@ -56,8 +56,9 @@ void Shortener::analyse(const Tape& from, const Kernels& kernels, std::span<cons
 
 RegionColumns Shortener::columns_of(std::span<const Region> regions, float band) {
   RegionColumns columns;
-  for (float** column : {&columns.centre[0], &columns.centre[1], &columns.centre[2], &columns.reach, &columns.gap,
-                         &columns.least, &columns.most, &columns.lower, &columns.upper}) {
+  for (float** column : {&columns.centre[0], &columns.centre[1], &columns.centre[2], &columns.half[0], &columns.half[1],
+                         &columns.half[2], &columns.reach, &columns.gap, &columns.least, &columns.most, &columns.lower,
+                         &columns.upper}) {
     *column = arena_.take<float>(kRegionLanes);
   }
   for (std::size_t i = 0; i < kRegionLanes; ++i) {
@@ -71,6 +72,9 @@ RegionColumns Shortener::columns_of(std::span<const Region> regions, float band)
     // are monotone but for theirs.
     const auto rounding = static_cast<float>(4 * slack_(static_cast<double>(largest + region.reach)));
     columns.reach[i] = 1.00001F * region.reach + rounding;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      columns.half[axis][i] = std::min(1.00001F * region.half[axis] + rounding, columns.reach[i]);
+    }
     columns.gap[i] = region.cell_reach > 0 ? 1.00001F * region.cell_reach + rounding : 0;
     // Lanes without a region need nothing.
     columns.least[i] = i < regions.size() ? -band : kInfinity;

@@ -20,9 +20,11 @@ namespace thalweg {
 /// Tapes from this length on are worth shortening for regions of rows.
 inline constexpr std::size_t kLongTape = 128;
 
-/// A ball that holds all points at which a short tape will be evaluated.
+/// A ball that holds all points at which a short tape will be evaluated, and a box where one is known.
 struct Region {
+  static constexpr float kUnknown = std::numeric_limits<float>::infinity();
   float centre[3] = {};
+  float half[3] = {kUnknown, kUnknown, kUnknown};
   float reach = 0;
   /// Radius of the largest cell whose bound is asked of the short tape; 0: values and gradients alone. Operands must be
   /// further apart than it, or a bound of the one left out might have been the lower.

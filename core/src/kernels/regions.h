@@ -13,10 +13,11 @@ namespace thalweg {
 
 /// Regions are analysed this many at once.
 inline constexpr std::size_t kRegionLanes = 32;
-/// Balls around centres, kRegionLanes of them; f lies within [lower, upper] over each.
+/// Balls around centres, kRegionLanes of them, each cut with a box; f lies within [lower, upper] over each.
 struct RegionColumns {
   float* centre[3] = {};
-  float* reach = nullptr;  ///< widened by rounding
+  float* half[3] = {};     ///< of the box, widened by rounding
+  float* reach = nullptr;  ///< the same
   float* gap = nullptr;    ///< how far apart operands must be for one of them to be left out
   /// Values of f that matter: of those beyond, only on which side they lie. None when least > most.
   float *least = nullptr, *most = nullptr;

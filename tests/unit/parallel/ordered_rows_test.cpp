@@ -4,6 +4,7 @@
 // Batches against long tapes are answered in spatial order by shortened tapes: each row as if it were alone.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -186,6 +187,44 @@ TEST(OrderedPoints, HaveTheValuesAndGradientsOfTheFullTape) {
     }
     EXPECT_EQ(std::memcmp(value.data(), alone.data(), value.size() * sizeof(float)), 0);
     EXPECT_EQ(std::memcmp(gradient.data(), gradient_alone.data(), gradient.size() * sizeof(float)), 0);
+  }
+}
+
+TEST(OrderedRowsInOnePlace, AreAnsweredAsIfAlone) {
+  const Tape tape = long_tape(2);
+  constexpr std::size_t kCount = 9000;
+  Random random(4);
+  std::vector<float> rows;
+  // All but a few far ones share a cell of the curve.
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const double place = i % 1000 == 0 ? random.uniform(-1e6, 1e6) : 500;
+    for (std::size_t k = 0; k < 6; ++k) rows.push_back(static_cast<float>(place + random.uniform(-30, 30)));
+  }
+  Answers alone(kCount, 2), together(kCount, 2);
+  for (std::size_t begin = 0; begin < kCount; begin += 100) {
+    ASSERT_TRUE(collide_triangles(tape, {&rows[begin * 6], 100}, {}, alone.from(begin, 2), {.threads = 1}));
+  }
+  ASSERT_TRUE(collide_triangles(tape, {rows.data(), kCount}, {}, together.from(0, 2), {.threads = 2}));
+  EXPECT_TRUE(together == alone);
+}
+
+TEST(RowsInOrder, AreCountedAndEndWhenCancelled) {
+  const Tape tape = long_tape(2);
+  constexpr std::size_t kCount = 5000;
+  const std::vector<float> rows = scattered_triangles(kCount, 2);
+  for (const int threads : {1, 2}) {
+    std::atomic<std::size_t> done{0};
+    const auto all = collide_triangles(tape, {rows.data(), kCount}, {}, {}, {.threads = threads, .done = &done});
+    ASSERT_TRUE(all);
+    EXPECT_FALSE(all->cancelled);
+    EXPECT_EQ(all->rows, kCount);
+    EXPECT_EQ(done, kCount);
+    const std::atomic<bool> cancelled{true};
+    const auto none =
+        collide_triangles(tape, {rows.data(), kCount}, {}, {}, {.threads = threads, .cancelled = &cancelled});
+    ASSERT_TRUE(none);
+    EXPECT_TRUE(none->cancelled);
+    EXPECT_EQ(none->rows, 0U);
   }
 }
 

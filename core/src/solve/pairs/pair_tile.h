@@ -54,6 +54,12 @@ struct PairScratch {
   std::vector<PairHeapCell> heap;
   std::vector<std::unique_ptr<Twin>> twins;  ///< one per shape, made when first needed
 
+  /// For other shapes from now on.
+  void begin(const PairQueries& queries) {
+    for (std::size_t i = 0; i < twins.size() && i < queries.shape_count; ++i) {
+      if (twins[i] != nullptr) twins[i]->use(*queries.shapes[i]);
+    }
+  }
   Twin& twin(const PairQueries& queries, std::size_t shape) {
     if (twins.size() < queries.shape_count) twins.resize(queries.shape_count);
     if (twins[shape] == nullptr) twins[shape] = std::make_unique<Twin>(*queries.shapes[shape]);
