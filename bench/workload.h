@@ -42,6 +42,7 @@ void register_evaluate_cases();
 void register_triangle_cases();
 void register_growth_cases();
 void register_startup_cases();
+void register_vm_cases();
 void register_pair_cases();
 
 }  // namespace thalweg::bench

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -134,6 +135,28 @@ class Places {
   std::size_t d_;
 };
 
+/// Where a formula is undefined there is one NaN, whatever the target made of it; returns how often.
+std::size_t mark_undefined(std::span<float> value) {
+  std::size_t count = 0;
+  for (float& f : value) {
+    if (!std::isnan(f)) continue;
+    f = std::numeric_limits<float>::quiet_NaN();
+    ++count;
+  }
+  return count;
+}
+
+/// Rows of d coordinates that cannot be answered.
+std::size_t bad_rows(std::span<const float> rows, std::size_t d) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < rows.size(); i += d) {
+    const auto row = rows.subspan(i, d);
+    const bool good = std::ranges::all_of(row, [](float x) { return std::fabs(x) <= kLargestCoordinate; });
+    count += good ? 0 : 1;
+  }
+  return count;
+}
+
 /// What one worker keeps from tile to tile.
 struct Worker {
   Arena arena;
@@ -200,6 +223,7 @@ class GridTask {
       if (!worker.begun) continue;
       total.rows += worker.summary.rows;
       total.bad_rows += worker.summary.bad_rows;
+      total.undefined_rows += worker.summary.undefined_rows;
       total.evaluations += worker.summary.evaluations;
     }
     total.cancelled = !complete;
@@ -286,6 +310,7 @@ class GridTask {
     places_.columns(box, points);
     kernels_.value(own.sub_tape, points, box.count(), value, own.arena.take<float>(scratch_floats(tape_)));
     own.summary.evaluations += box.count();
+    if (tape_.has_formulas) own.summary.undefined_rows += mark_undefined({value, box.count()});
     store(box, value);
   }
 
@@ -301,9 +326,11 @@ class GridTask {
         for (std::size_t i = 0; i < row.count(); ++i) {
           grid_.point(row.first[0] + i, row.first[1], row.first[2], tape_.dimension, rows + i * d);
         }
-        const std::size_t bad =
+        const std::size_t unanswered =
             kernels_.rows(tape_, rows, row.count(), value, nullptr, own.arena.take<float>(scratch_floats(tape_)));
+        const std::size_t bad = tape_.has_formulas ? bad_rows({rows, row.count() * d}, d) : unanswered;
         own.summary.bad_rows += bad;
+        own.summary.undefined_rows += unanswered - bad;
         own.summary.evaluations += row.count() - bad;
         store(row, value);
       }

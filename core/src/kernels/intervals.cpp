@@ -24,6 +24,7 @@ struct IntervalMode {
   using Register = Interval<T>;
 
   T reach;
+  const float* halves[D];
   float** record;  ///< where the operands of the next choice go, as if for the least of two
 
   template <class Declared>
@@ -57,9 +58,13 @@ struct IntervalMode {
     }
   }
   template <class Declared>
-  HWY_INLINE Register leaf(const Machine<T>&, const Instruction&, Point<T, D> p, Constants<T> c) const {
+  HWY_INLINE Register leaf(const Machine<T>&, const Instruction& in, Point<T, D> p, Constants<T> c) const {
     Register offsets[D];
-    for (Register& offset : offsets) offset = {-reach, reach};
+    for (int axis = 0; axis < D; ++axis) {
+      // A turned box is not known.
+      const T half = in.operand == 0 ? Make<T>::load(halves[axis]) : reach;
+      offsets[axis] = {-half, half};
+    }
     return Declared::enclose(p, offsets, zero<T>(), c);
   }
   template <class Declared>
@@ -86,7 +91,9 @@ void regions_of(const Tape& tape, const RegionColumns& regions, const RegionWork
       store(Make<T>::load(regions.centre[axis] + i), m.positions + static_cast<size_t>(axis) * lanes);
     }
     float* record = work.record;
-    const auto f = run(IntervalMode<T, D>{Make<T>::load(regions.reach + i), &record}, m);
+    IntervalMode<T, D> mode{Make<T>::load(regions.reach + i), {}, &record};
+    for (int axis = 0; axis < D; ++axis) mode.halves[axis] = regions.half[axis] + i;
+    const auto f = run(mode, m);
     store(f.lo, regions.lower + i);
     store(f.hi, regions.upper + i);
     // Where f is beyond what matters everywhere, nothing of the tape is needed.

@@ -44,7 +44,7 @@ void expect_plain_answers(const Tape& tape, const Grid& grid, float band, const 
   std::vector<std::uint8_t> expected_inside;
   for (const float f : expected) expected_inside.push_back(f < 0 ? 1 : 0);
   std::vector<float> cut_off = expected;
-  for (float& f : cut_off) f = std::clamp(f, -band, band);
+  for (float& f : cut_off) f = std::isnan(f) ? f : std::clamp(f, -band, band);
   std::vector<float> value(grid.count());
   std::vector<std::uint8_t> inside(grid.count());
   for (const Execution& execution :
@@ -103,6 +103,31 @@ TEST_P(Grids, HaveTheBitsOfTheirPointsOneByOne) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfBothDimensions, Grids, testing::Values(2, 3));
+
+TEST(GridsOfFormulas, HaveTheBitsOfTheirPointsOneByOne) {
+  const std::vector<Shape> shapes = {
+      expression("min(max(sin(3*x) + y, x*x + y*y - 9), max(abs(x - 2), abs(y)) - 1)"),
+      expression("min(sqrt(x*x + y*y + z*z) - 3, max(abs(x), max(abs(y), abs(z))) - 2)"),
+      union_({expression("x / (y*y - 2) - 1").translate(Vec2{1, 0}).rotate(0.3), circle(2), box(Vec2{3, 0.5})}),
+  };
+  Random random(8);
+  for (const Shape& shape : shapes) {
+    const Tape tape = std::move(compile(shape)).value();
+    const std::string scene = oracle::describe(shape, 0);
+    expect_plain_answers(tape, random_grid(random, tape.dimension, {150, 131, 1}), 0.5F, scene);
+    expect_plain_answers(tape, random_grid(random, tape.dimension, {19, 17, 9}), 0.5F, scene);
+  }
+}
+
+TEST(GridsOfFormulas, CountWhereTheyAreUndefined) {
+  const Tape tape = std::move(compile(expression("sqrt(x) - 1 + 0*y"))).value();
+  const Grid grid{.origin = {-10, 0}, .step = {{1}, {0, 1}}, .size = {21, 5, 1}};
+  std::vector<float> value(grid.count());
+  const auto summary = evaluate_grid(tape, grid, {.value = value.data()});
+  ASSERT_TRUE(summary);
+  EXPECT_EQ(summary->undefined_rows, 50U);
+  EXPECT_EQ(summary->bad_rows, 0U);
+}
 
 Grid square_grid(std::size_t side, double from, double to) {
   const double step = (to - from) / static_cast<double>(side);
