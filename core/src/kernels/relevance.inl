@@ -235,9 +235,13 @@ class Relevance {
       first_most = min(add_up(second.hi, width), most);
       second_most = min(add_up(first.hi, width), most);
     }
-    const M second_out = add_up(second_most, gap_) < second.lo;
+    // Bounds over cells may be lower than values by the gap. And where what matters lies above all of the one operand,
+    // the other one still matters for the side of it that it lies on.
+    first_most = max(add_up(first_most, gap_), matters.lo);
+    second_most = max(add_up(second_most, gap_), matters.lo);
+    const M second_out = second_most < second.lo;
     // Without the first operand a falling one would be left, which no load can negate.
-    const M first_out = without(add_up(first_most, gap_) < first.lo, second_out);
+    const M first_out = without(first_most < first.lo, second_out);
     const M needs_second = without(live, second_out);
     const M needs_first = role.second_falls ? live : without(live, first_out);
     Interval<T> of_first = where(needs_first, {matters.lo, first_most});

@@ -107,6 +107,7 @@ INSTANTIATE_TEST_SUITE_P(OfBothDimensions, Grids, testing::Values(2, 3));
 TEST(GridsOfFormulas, HaveTheBitsOfTheirPointsOneByOne) {
   const std::vector<Shape> shapes = {
       expression("min(max(sin(3*x) + y, x*x + y*y - 9), max(abs(x - 2), abs(y)) - 1)"),
+      expression("max(sqrt(x - 1) - 2, min(log(y + 3), y - x*x))"),
       expression("min(sqrt(x*x + y*y + z*z) - 3, max(abs(x), max(abs(y), abs(z))) - 2)"),
       union_({expression("x / (y*y - 2) - 1").translate(Vec2{1, 0}).rotate(0.3), circle(2), box(Vec2{3, 0.5})}),
   };
