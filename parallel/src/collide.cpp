@@ -129,10 +129,7 @@ class CollideTask final : public TileTask, public OrderedBatch::Answer {
   [[nodiscard]] bool answers_in_order() const {
     const bool stays = limits_.method != Method::published && limits_.gradient.strategy != Gradient::closest_point &&
                        limits_.normals.strategy != Gradient::closest_point;
-    // Formulas are searched on the full tape: shortened part by part, a program of 8000 steps gave other values, and why
-    // is not known.
-    return stays && !tape_.has_formulas && limits_.contacts == 0 &&
-           OrderedBatch::suits(tape_, queries_.count, kLongTape);
+    return stays && limits_.contacts == 0 && OrderedBatch::suits(tape_, queries_.count, kLongTape);
   }
 
   Worker& worker(std::size_t index) {

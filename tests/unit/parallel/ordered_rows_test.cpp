@@ -4,10 +4,12 @@
 // Batches against long tapes are answered in spatial order by shortened tapes: each row as if it were alone.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "order.h"
@@ -206,6 +208,40 @@ TEST(OrderedRowsInOnePlace, AreAnsweredAsIfAlone) {
   }
   ASSERT_TRUE(collide_triangles(tape, {rows.data(), kCount}, {}, together.from(0, 2), {.threads = 2}));
   EXPECT_TRUE(together == alone);
+}
+
+/// A hundred discs whose rims are waves, as one formula.
+Tape long_formula() {
+  Random random(6);
+  std::string text = "10";
+  for (int i = 0; i < 100; ++i) {
+    const std::string x = "(x-" + std::to_string(random.uniform(0, kWorld)) + ")";
+    const std::string y = "(y-" + std::to_string(random.uniform(0, kWorld)) + ")";
+    std::string disc = "sqrt(" + x + "*" + x + "+" + y + "*" + y + ")";
+    disc.append("-20-sin(").append(x).append(")");
+    // Some are cut out of all before them, so that maxima decide too.
+    text = i % 5 == 4 ? "max(" + text + ",20-" + disc + ")" : "min(" + text + "," + disc + ")";
+  }
+  return std::move(compile(expression(text))).value();
+}
+
+TEST(OrderedRowsOfFormulas, AreAnsweredAsIfAlone) {
+  const Tape tape = long_formula();
+  ASSERT_GT(tape.instructions.size(), 500U);
+  constexpr std::size_t kCount = 3000;
+  const std::vector<float> rows = scattered_triangles(kCount, 2);
+  for (const Goal goal : {Goal::verdict, Goal::deepest}) {
+    CollideOptions options;
+    options.goal = goal;
+    options.budget = 512;
+    Answers alone(kCount, 2), together(kCount, 2);
+    for (std::size_t begin = 0; begin < kCount; begin += 100) {
+      ASSERT_TRUE(collide_triangles(tape, {&rows[begin * 6], 100}, options, alone.from(begin, 2), {.threads = 1}));
+    }
+    ASSERT_TRUE(collide_triangles(tape, {rows.data(), kCount}, options, together.from(0, 2), {.threads = 2}));
+    EXPECT_TRUE(together == alone);
+    EXPECT_GT(std::ranges::count(together.status, std::uint8_t{1}), 100);
+  }
 }
 
 TEST(RowsInOrder, AreCountedAndEndWhenCancelled) {
