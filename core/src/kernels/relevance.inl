@@ -9,7 +9,14 @@
 // Why the bits stay. Say only values of min(a, b) up to C matter, and b > C all over the region. Where a <= C the
 // result is a with or without b; elsewhere it is above C with or without b. A blend of width w is exact where its
 // operands are further apart than w and lowers the result by w / 4 at the most: with b > C + 2w, either a <= C + w and
-// the result is a, or it is above C both times. Maxima mirror this. At the root the caller says what matters.
+// the result is a, or it is above C both times. Maxima mirror this. A range of one number asks for the side of it
+// alone.
+//
+// Bounds over cells no larger than the gap have their ends within the gap of the value at the centre, lower ends below
+// it and upper ones above. Where values up to C matter so do lower ends up to C and upper ends up to C + gap, and each
+// choice cuts the three alike: b > C + gap leaves b out of all, and the gap is not added again further down.
+//
+// At the root the caller says what matters.
 // Included once per SIMD target.
 #if defined(THALWEG_KERNELS_RELEVANCE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef THALWEG_KERNELS_RELEVANCE_INL
@@ -235,17 +242,14 @@ class Relevance {
       first_most = min(add_up(second.hi, width), most);
       second_most = min(add_up(first.hi, width), most);
     }
-    // Bounds over cells may be lower than values by the gap. And where what matters lies above all of the one operand,
-    // the other one still matters for the side of it that it lies on.
-    first_most = max(add_up(first_most, gap_), matters.lo);
-    second_most = max(add_up(second_most, gap_), matters.lo);
-    const M second_out = second_most < second.lo;
+    const M second_out = add_up(second_most, gap_) < second.lo;
     // Without the first operand a falling one would be left, which no load can negate.
-    const M first_out = without(first_most < first.lo, second_out);
+    const M first_out = without(add_up(first_most, gap_) < first.lo, second_out);
     const M needs_second = without(live, second_out);
     const M needs_first = role.second_falls ? live : without(live, first_out);
-    Interval<T> of_first = where(needs_first, {matters.lo, first_most});
-    Interval<T> of_second = where(needs_second, {matters.lo, second_most});
+    // Where what matters lies above all of the one operand, the other one still counts for its side of that.
+    Interval<T> of_first = where(needs_first, {matters.lo, max(first_most, matters.lo)});
+    Interval<T> of_second = where(needs_second, {matters.lo, max(second_most, matters.lo)});
     if (role.greatest) of_first = mirrored(of_first);
     if (role.greatest != role.second_falls) of_second = mirrored(of_second);
     const bool swapped = (in.flags & Instruction::kSwapped) != 0;

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "random_shapes.h"
 #include "thalweg/ops.h"
@@ -48,7 +49,9 @@ struct Cells {
 /// All that the kernels say about some cells.
 std::vector<float> answers(const Tape& tape, const Kernels& kernels, const Cells& cells) {
   const std::size_t room = padded(kPoints);
-  std::vector<float> all(7 * room), scratch(scratch_floats(tape));
+  std::vector<float> all(7 * room);
+  // A register that nobody wrote shows.
+  std::vector<float> scratch(scratch_floats(tape), std::numeric_limits<float>::quiet_NaN());
   const float* points[3] = {cells.centre[0].data(), cells.centre[1].data(), cells.centre[2].data()};
   float* gradient[3] = {&all[room], &all[2 * room], &all[3 * room]};
   kernels.value(tape, points, kPoints, all.data(), scratch.data());
