@@ -46,13 +46,12 @@ class Cells {
       per_unit_[axis] = size > 0 ? cells / size : 0;
     }
   }
-  /// Of a row's first point; 0 for rows that cannot be answered.
-  template <std::size_t kDimension, std::size_t kPoints, bool kHasRadius>
-  [[nodiscard]] std::uint16_t of(const float* row, RowOf<kDimension, kPoints, kHasRadius> layout) const {
-    if (!layout.is_answerable(row)) return 0;
+  /// Of the middle of a row's box; 0 for rows that cannot be answered.
+  [[nodiscard]] std::uint16_t of(const Extent& row, std::size_t dimension) const {
+    if (!(row.lo[0] <= row.hi[0])) return 0;
     std::uint32_t key = 0;
-    for (std::size_t axis = 0; axis < kDimension; ++axis) {
-      const float at = std::clamp((row[axis] - lo_[axis]) * per_unit_[axis], 0.0F, last_);
+    for (std::size_t axis = 0; axis < dimension; ++axis) {
+      const float at = std::clamp((row.middle(axis) - lo_[axis]) * per_unit_[axis], 0.0F, last_);
       key |= spread_[static_cast<std::size_t>(at)] << axis;
     }
     return static_cast<std::uint16_t>(key);
@@ -90,20 +89,19 @@ void SpatialOrder::sort(const RowLayout& layout, const float* rows, std::size_t 
   with_row(layout, [&]<class Row>(Row row) {
     sample_ = {};
     for (std::size_t i = 0; i < count; i += std::max<std::size_t>(count / kSampledRows, 1)) {
-      Extent first_point;
-      const float* const at = rows + i * Row::kWidth;
-      if (!row.is_answerable(at)) continue;
-      std::copy_n(at, layout.dimension, first_point.lo);
-      std::copy_n(at, layout.dimension, first_point.hi);
-      sample_.add(first_point);
+      const Extent own = row.extent(rows + i * Row::kWidth);
+      if (!(own.lo[0] <= own.hi[0])) continue;
+      Extent middle;
+      for (std::size_t axis = 0; axis < Row::kAxes; ++axis) middle.lo[axis] = middle.hi[axis] = own.middle(axis);
+      sample_.add(middle);
     }
     const Cells cells(layout, sample_, halvings_);
     for_rows(count, execution, [&](std::size_t begin, std::size_t end, std::size_t worker) {
       Extent extent;
       for (std::size_t i = begin; i < end; ++i) {
-        const float* const at = rows + i * Row::kWidth;
-        extent.add(row.extent(at));
-        cell_[i] = cells.of(at, row);
+        const Extent own = row.extent(rows + i * Row::kWidth);
+        extent.add(own);
+        cell_[i] = cells.of(own, Row::kAxes);
       }
       found_[worker].add(extent);
     });
@@ -132,9 +130,9 @@ Extent SpatialOrder::extent_of(std::size_t first_cell, int level) const {
     }
     const auto lo = static_cast<double>(sample_.lo[axis]), hi = static_cast<double>(sample_.hi[axis]);
     const double size = (hi - lo) / cells;
-    // A cell's number is rounded, and its rows reach beyond it.
+    // A cell's number is rounded, and its rows reach beyond it by half their size.
     const double margin =
-        0.01 * size + 1e-6 * std::max(std::fabs(lo), std::fabs(hi)) + static_cast<double>(all_.largest_row);
+        0.01 * size + 1e-6 * std::max(std::fabs(lo), std::fabs(hi)) + 0.501 * static_cast<double>(all_.largest_row);
     // The cells at the rim hold what lies outside of the sample.
     const bool is_first = index == 0 || !(hi > lo);
     const bool is_last = index + wide == std::size_t{1} << halvings_ || !(hi > lo);

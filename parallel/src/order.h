@@ -35,6 +35,7 @@ struct Extent {
     std::fill_n(lo, 3, kInfinity);
     std::fill_n(hi, 3, -kInfinity);
   }
+  [[nodiscard]] float middle(std::size_t axis) const { return 0.5F * (lo[axis] + hi[axis]); }
   void add(const Extent& other) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       lo[axis] = std::min(lo[axis], other.lo[axis]);
@@ -47,6 +48,7 @@ struct Extent {
 /// A row's own extent, where the layout is known when compiled.
 template <std::size_t kDimension, std::size_t kPoints, bool kHasRadius>
 struct RowOf {
+  static constexpr std::size_t kAxes = kDimension;
   static constexpr std::size_t kWidth = kPoints * kDimension + (kHasRadius ? 1 : 0);
 
   [[nodiscard]] static bool is_answerable(const float* row) {
@@ -98,12 +100,12 @@ class SpatialOrder {
   [[nodiscard]] int levels() const { return static_cast<int>(halvings_ * layout_.dimension); }
   /// Where in rows() those of a cell begin.
   [[nodiscard]] std::uint32_t begin_of(std::size_t cell) const { return begin_[cell]; }
-  /// A box that holds all rows whose first point lies in an aligned run of 2^level cells.
+  /// A box that holds all rows whose middle lies in an aligned run of 2^level cells.
   [[nodiscard]] Extent extent_of(std::size_t first_cell, int level) const;
 
  private:
   RowLayout layout_;
-  Extent sample_;  ///< first points of some rows: where the grid lies
+  Extent sample_;  ///< middles of some rows: where the grid lies
   Extent all_;
   std::size_t halvings_ = 0;  ///< of each axis
   std::vector<std::uint32_t> rows_, begin_;

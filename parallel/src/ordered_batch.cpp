@@ -25,7 +25,7 @@ constexpr std::size_t kFewRows = 32;
 /// Programs of so many tasks are held at a time.
 constexpr std::size_t kHeldTasks = 1024;
 /// Rows ahead of which the gathering loop asks for memory.
-constexpr std::size_t kAhead = 12;
+constexpr std::size_t kAhead = 24;
 
 }  // namespace
 
@@ -212,7 +212,9 @@ void OrderedBatch::gather(const Run& run, Worker& worker) const {
   with_row(layout_, [&]<class Row>(Row row) {
     float* to = worker.rows.data();
     for (std::size_t i = run.begin; i < run.end; ++i, to += Row::kWidth) {
-      __builtin_prefetch(rows_ + order[std::min<std::size_t>(i + kAhead, run.end - 1)] * Row::kWidth);
+      const float* const ahead = rows_ + order[std::min<std::size_t>(i + kAhead, run.end - 1)] * Row::kWidth;
+      __builtin_prefetch(ahead);
+      __builtin_prefetch(ahead + Row::kWidth - 1);
       std::memcpy(to, rows_ + order[i] * Row::kWidth, sizeof(float) * Row::kWidth);
       worker.extents[i - run.begin] = row.extent(to);
     }
