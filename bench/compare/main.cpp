@@ -4,8 +4,8 @@
 // thalweg_compare [--short | --rows N] [--into PAGE]
 //
 // Every method for triangles on every scene, against the independent oracle: misses, false reports, error of the value,
-// evaluations, nanoseconds. Fails when `certified` is wrong once, or when a published method has fewer misses or no more
-// evaluations than `accelerated`. `--into` replaces the tables of a page between its two marks.
+// evaluations, nanoseconds. Fails when `certified` is wrong once, or when a published method has fewer misses or no
+// more evaluations than `accelerated`. `--into` replaces the tables of a page between its two marks.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
