@@ -29,8 +29,8 @@ struct PairQueries {
 
 struct PairOptions : CollideOptions {
   /// Resolution e of overlap regions, scene units. With delta = min(e, half the depth of the deepest point), every
-  /// component of {g <= -delta} belongs to exactly one contact, and two components share a contact only when a path with
-  /// g <= e joins them. 0: 1/32 of the diagonal of the smaller of the two bounding boxes.
+  /// component of {g <= -delta} belongs to exactly one contact, and two components share a contact only when a path
+  /// with g <= e joins them. 0: 1/32 of the diagonal of the smaller of the two bounding boxes.
   double region = 0;
 };
 
