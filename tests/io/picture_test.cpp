@@ -55,8 +55,16 @@ TEST(View, WidensTheBoundsOfTheShapeToTheSize) {
   EXPECT_DOUBLE_EQ(view.x1 - view.x0, 2 * (view.y1 - view.y0));
 }
 
-TEST(View, RefusesAnUnboundedShapeWithoutBounds) {
-  EXPECT_EQ(refusal([] { static_cast<void>(choose_view({}, Facts())); }).place, "--bounds");
+TEST(View, ShowsAnUnboundedShapeAroundTheOrigin) {
+  const View view = choose_view({}, Facts());
+  EXPECT_EQ(view.x0, -1);
+  EXPECT_EQ(view.y0, -1);
+  EXPECT_EQ(view.x1, 1);
+  EXPECT_EQ(view.y1, 1);
+}
+
+TEST(View, RefusesAnEmptyShapeWithoutBounds) {
+  EXPECT_EQ(refusal([] { static_cast<void>(choose_view({}, facts_within(1, 1, -1, -1))); }).place, "--bounds");
 }
 
 TEST(View, RefusesBoundsThatAreTurnedAround) {
