@@ -18,30 +18,32 @@ namespace thalweg {
 ///   primitive  acc = field of op at position[operand], moved and, when kTurned is set, turned
 ///   combine    acc = op(register[operand], acc), the other way round when kSwapped is set
 ///   map        acc = op(acc)
-///   scalar     acc = op(acc), op(register[operand], acc) as combine, op(constant, acc) when kImmediate is set;
-///              or a coordinate of position[operand], or a constant
+///   scalar     acc = op(acc), op(register[operand], acc) as combine, op(constant, acc) when kImmediate is set, each
+///              with register[first] for acc when kLoads is set; or a coordinate of position[operand], or a constant
 ///   load       acc = register[operand]
 ///   keep       leaves the accumulator as it is; in shortened tapes, where it is stored
 ///   warp       position[target] = op(position[operand]); the accumulator is left alone
 struct Instruction {
   static constexpr std::uint16_t kNone = 0xffff;
 
-  std::uint16_t op = 0;          ///< row of the op table, kLoad or kKeep
+  std::uint8_t op = 0;           ///< row of the op table, kLoad or kKeep
+  std::uint8_t flags = 0;        ///< see the constants below
   std::uint16_t operand = 0;     ///< register or position read
+  std::uint16_t first = 0;       ///< register read in place of the accumulator when kLoads is set
   std::uint16_t target = kNone;  ///< register or position written; kNone: the accumulator alone
-  std::uint16_t flags = 0;       ///< see the constants below
   std::uint32_t constants = 0;   ///< first derived constant in the pools
   std::uint32_t constant_count = 0;
 
-  static constexpr std::uint16_t kLoad = 0xfffe;
-  static constexpr std::uint16_t kKeep = 0xfffd;
-  static constexpr std::uint16_t kSupport = 1;  ///< convex primitive with a support function, reached rigidly
-  static constexpr std::uint16_t kDepth = 2;    ///< primitive of exact inside, reached rigidly
-  static constexpr std::uint16_t kSwapped = 4;  ///< the accumulator is the first operand
-  static constexpr std::uint16_t kTurned =
+  static constexpr std::uint8_t kLoad = 0xfe;
+  static constexpr std::uint8_t kKeep = 0xfd;
+  static constexpr std::uint8_t kLoads = 1;      ///< the accumulator is first loaded from a register
+  static constexpr std::uint8_t kSwapped = 2;    ///< the accumulator is the first operand
+  static constexpr std::uint8_t kImmediate = 4;  ///< the other operand is the first constant, not a register
+  static constexpr std::uint8_t kTurned =
       8;  ///< a primitive's constants begin with those of `rigid`, not a translation
-  static constexpr std::uint16_t kWarped = 16;     ///< a primitive at a position other than the query point
-  static constexpr std::uint16_t kImmediate = 32;  ///< the other operand is the first constant, not a register
+  static constexpr std::uint8_t kWarped = 16;   ///< a primitive at a position other than the query point
+  static constexpr std::uint8_t kSupport = 32;  ///< convex primitive with a support function, reached rigidly
+  static constexpr std::uint8_t kDepth = 64;    ///< primitive of exact inside, reached rigidly
 };
 static_assert(sizeof(Instruction) == 16);
 
@@ -63,6 +65,7 @@ struct Tape {
   Affine search_slack;        ///< the same for bounds over cells: value, centre, reach and their arithmetic
   Affine enclosure_slack;     ///< the same for intervals, which carry a formula's own rounding: finite
   bool has_formulas = false;  ///< there are scalar instructions: only intervals prove anything
+  bool only_scalars = false;  ///< every instruction is scalar, a load or a keep
   bool has_support = false;   ///< some primitive has a support function, so enclosures beat f - L r
 
   /// The program, one instruction a line.

@@ -38,11 +38,12 @@ std::string scalar_action(const ops::Entry& op, const Instruction& in) {
   const std::string operand = std::to_string(in.operand);
   const bool is_immediate = (in.flags & Instruction::kImmediate) != 0;
   const std::string other = is_immediate ? "c" : "r" + operand;
+  const std::string own = (in.flags & Instruction::kLoads) != 0 ? "r" + std::to_string(in.first) : "acc";
   if (op.operands == 0)
     return op.row.name == "constant" ? "acc = c" : joined("acc = ", op.row.name, "(p", operand, ")");
-  if (op.operands == 1) return joined("acc = ", op.row.name, "(acc)");
-  return (in.flags & Instruction::kSwapped) != 0 ? joined("acc = ", op.row.name, "(acc, ", other, ")")
-                                                 : joined("acc = ", op.row.name, "(", other, ", acc)");
+  if (op.operands == 1) return joined("acc = ", op.row.name, "(", own, ")");
+  return (in.flags & Instruction::kSwapped) != 0 ? joined("acc = ", op.row.name, "(", own, ", ", other, ")")
+                                                 : joined("acc = ", op.row.name, "(", other, ", ", own, ")");
 }
 
 std::string action(const Instruction& in) {

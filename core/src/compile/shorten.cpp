@@ -116,7 +116,7 @@ void Shortener::write(const Tape& from, std::span<Stream> streams) {
   for (std::size_t i = 0; i < streams.size(); ++i) {
     streams[i].instructions = reinterpret_cast<Instruction*>(memory) + i * room;
   }
-  static const auto constant = static_cast<std::uint16_t>(ops::find_function("constant"));
+  static const auto constant = static_cast<std::uint8_t>(ops::find_function("constant"));
   for (std::size_t i = 0; i < length; ++i) {
     const InstructionUse& use = work_.use[i];
     if (use.run == 0) continue;
@@ -129,7 +129,13 @@ void Shortener::write(const Tape& from, std::span<Stream> streams) {
       stream.instructions[stream.size++] = (use.stored >> region & 1) != 0 ? in : unread;
       if (!moves) stream.producer = stream.size;
     });
-    for_each_bit(use.run & ~use.operand, [&](std::size_t region) { streams[region].keep(in.target); });
+    for_each_bit(use.run & ~use.operand, [&](std::size_t region) {
+      if ((in.flags & Instruction::kLoads) != 0) {
+        streams[region].load(in.first, (use.stored >> region & 1) != 0 ? in.target : Instruction::kNone);
+      } else {
+        streams[region].keep(in.target);
+      }
+    });
     for_each_bit(use.run & ~use.accumulator, [&](std::size_t region) {
       const std::uint16_t target = (use.stored >> region & 1) != 0 ? in.target : Instruction::kNone;
       if ((in.flags & Instruction::kImmediate) != 0) {

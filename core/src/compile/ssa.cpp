@@ -250,7 +250,7 @@ class Flattener {
     const Position where = ssa_.positions[static_cast<std::size_t>(position)];
     const int made = lower(*shape.formula(), {at, position, where, ssa_.dimension},
                            [&](Value value) { return ssa_.values.size() < kMostValues ? add(std::move(value)) : 0; });
-    formulas_.insert(made);
+    if (ssa_.values[static_cast<std::size_t>(made)].may_be_undefined) formulas_.insert(made);
     return made;
   }
 
@@ -354,7 +354,7 @@ class Flattener {
   bool hides_undefined_ = false;  ///< some operator takes a formula among its operands
   std::map<std::tuple<const void*, std::array<double, 13>, int>, int> walked_;
   std::map<std::tuple<int, int, std::vector<double>>, int> position_of_;
-  std::map<std::tuple<int, int, int, int, std::uint16_t, std::vector<double>>, int> value_of_;
+  std::map<std::tuple<int, int, int, int, std::uint8_t, std::vector<double>>, int> value_of_;
 };
 
 }  // namespace

@@ -28,7 +28,7 @@ struct Value {
   int a = -1;
   int b = -1;                     ///< scalar ops with a constant operand have it among the constants
   int position = -1;              ///< primitives and coordinates
-  std::uint16_t flags = 0;        ///< kSupport and kDepth of the instruction; kImmediate and kSwapped of a scalar one
+  std::uint8_t flags = 0;         ///< kSupport and kDepth of the instruction; kImmediate and kSwapped of a scalar one
   bool may_be_undefined = false;  ///< a formula has to do with it
   std::vector<double> constants = {};
   Affine size = {};   ///< |value| <= size(m), but for formulas

@@ -85,6 +85,7 @@ class Writer {
 
   Result<Tape> run(const Facts& facts) {
     find_last_uses();
+    tape_.only_scalars = true;
     for (std::size_t step = 0; step < order_.size(); ++step) write(step);
     if (registers_.overflowed() || positions_.overflowed()) {
       return Error{.file = "", .place = "/shape", .expected = "fewer values alive at once", .found = "too many"};
@@ -162,23 +163,26 @@ class Writer {
   void write(std::size_t step) {
     const int index = order_[step];
     const Value& v = ssa_.values[at(index)];
-    tape_.has_formulas = tape_.has_formulas || ops::registry()[at(v.op)].row.kind == OpKind::scalar;
+    const bool is_scalar = ops::registry()[at(v.op)].row.kind == OpKind::scalar;
+    tape_.has_formulas = tape_.has_formulas || is_scalar;
+    tape_.only_scalars = tape_.only_scalars && is_scalar;
     const int previous = step == 0 ? -1 : order_[step - 1];
     Instruction instruction;
-    instruction.op = static_cast<std::uint16_t>(v.op);
+    instruction.op = static_cast<std::uint8_t>(v.op);
     if (v.position >= 0) {
       instruction.operand = slot_of(v.position);
       instruction.flags = v.flags;
       tape_.has_support = tape_.has_support || (v.flags & Instruction::kSupport) != 0;
     } else if (v.b < 0) {
       instruction.flags = v.flags;
-      if (v.a >= 0 && previous != v.a) load(v.a);
+      if (v.a >= 0 && previous != v.a) load(v.a, is_scalar, instruction);
     } else {
-      if (previous != v.a && previous != v.b) load(v.b);
-      // With both in registers b was just loaded; with a in the accumulator the operator is written swapped.
-      const bool swapped = previous == v.a && v.a != v.b;
-      instruction.operand = register_of_[at(swapped ? v.b : v.a)];
-      if (swapped) instruction.flags |= Instruction::kSwapped;
+      if (previous != v.a && previous != v.b) load(v.b, is_scalar, instruction);
+      // With both in registers b was just loaded; with a in the accumulator the operator is written swapped. So is
+      // what commutes: processors read a second operand from memory within the operation.
+      const bool has_a = previous == v.a && v.a != v.b;
+      instruction.operand = register_of_[at(has_a ? v.b : v.a)];
+      if (has_a || ops::registry()[at(v.op)].commutes) instruction.flags |= Instruction::kSwapped;
     }
     store_constants(v.constants, instruction);
     release(v, step);
@@ -186,11 +190,15 @@ class Writer {
     tape_.instructions.push_back(instruction);
   }
 
-  void load(int value) {
-    Instruction instruction;
-    instruction.op = Instruction::kLoad;
-    instruction.operand = register_of_[at(value)];
-    tape_.instructions.push_back(instruction);
+  /// A value that the instruction wants in the accumulator.
+  void load(int value, bool is_scalar, Instruction& instruction) {
+    const std::uint16_t from = register_of_[at(value)];
+    if (is_scalar) {
+      instruction.flags |= Instruction::kLoads;
+      instruction.first = from;
+    } else {
+      tape_.instructions.push_back({.op = Instruction::kLoad, .operand = from});
+    }
   }
 
   void release(const Value& v, std::size_t step) {
@@ -212,7 +220,7 @@ class Writer {
     for (auto p = missing.rbegin(); p != missing.rend(); ++p) {
       const Position& made = ssa_.positions[at(*p)];
       Instruction instruction;
-      instruction.op = static_cast<std::uint16_t>(made.op);
+      instruction.op = static_cast<std::uint8_t>(made.op);
       instruction.operand = position_slot_[at(made.parent)];
       instruction.target = position_slot_[at(*p)] = positions_.take();
       store_constants(made.constants, instruction);

@@ -336,9 +336,14 @@ HWY_INLINE void scalar_step(const Mode& mode, const Machine<typename Mode::T>& m
   if constexpr (Declared::kOperands == 0) {
     acc = mode.template leaf<Declared>(m, in,
                                        load_point<T, Mode::D>(m.positions + in.operand * Mode::D * lanes_of<T>()), c);
-  } else if constexpr (Declared::kOperands == 1) {
+    return;
+  }
+  if ((in.flags & Instruction::kLoads) != 0) {
+    acc = Mode::load(m.registers + in.first * Mode::kComponents * lanes_of<T>());
+  }
+  if constexpr (Declared::kOperands == 1) {
     acc = mode.template unary<Declared>(m, in, acc);
-  } else {
+  } else if constexpr (Declared::kOperands == 2) {
     const auto other = (in.flags & Instruction::kImmediate) != 0
                            ? Mode::immediate(c)
                            : Mode::load(m.registers + in.operand * Mode::kComponents * lanes_of<T>());

@@ -19,8 +19,10 @@ namespace thalweg {
 /// need the registers themselves and do best with two (measured, evaluate/* of thalweg_bench).
 inline constexpr int kValueWidth = 4;
 inline constexpr int kGradientWidth = 2;
-/// The widest chunk of any target: kValueWidth vectors of 512 bits.
-inline constexpr std::size_t kMostChunkLanes = kValueWidth * 16;
+/// Scalar instructions are short: more vectors share the way to each.
+inline constexpr int kScalarWidth = 8;
+/// The widest chunk of any target: kScalarWidth vectors of 512 bits.
+inline constexpr std::size_t kMostChunkLanes = kScalarWidth * 16;
 /// A coordinate that can be answered is finite and at most this large.
 inline constexpr float kLargestCoordinate = 1e15F;
 /// Of float32.

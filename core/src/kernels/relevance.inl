@@ -162,6 +162,7 @@ class Relevance {
 
   /// A constant in place of a register needs nothing.
   static HWY_INLINE bool reads_register(const Instruction& in) { return (in.flags & Instruction::kImmediate) == 0; }
+  static HWY_INLINE bool loads(const Instruction& in) { return (in.flags & Instruction::kLoads) != 0; }
   HWY_INLINE void require_operand(const Instruction& in, Interval<T> values) {
     if (reads_register(in)) require(in.operand, values);
   }
@@ -217,15 +218,23 @@ class Relevance {
         work_.positions[in.operand] |= use.run;
     }
     if (role.part >= Part::guard) leave_out_idle(in, read_next, use);
+    if (loads(in)) {
+      require(in.first, accumulator_);
+      accumulator_ = nothing();
+    }
     return use;
   }
 
   /// What only keeps the accumulator runs where it stores it; what loads a register into itself, where the accumulator
   /// is read.
   HWY_INLINE void leave_out_idle(const Instruction& in, Interval<T> read_next, InstructionUse& use) const {
-    use.run &= use.operand | use.stored;
-    if (reads_register(in) && in.operand == in.target)
-      use.run &= use.accumulator | bits_of(read_next.lo <= read_next.hi);
+    const uint32_t read = bits_of(read_next.lo <= read_next.hi);
+    if (!loads(in)) {
+      use.run &= use.operand | use.stored;
+    } else if (in.first == in.target) {
+      use.run &= use.operand | read;
+    }
+    if (reads_register(in) && in.operand == in.target) use.run &= use.accumulator | read;
   }
 
   template <class M>

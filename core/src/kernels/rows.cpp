@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include "kernels/rows.inl"
+#include "kernels/scalars.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace thalweg {
@@ -45,14 +46,15 @@ struct RowColumns {
     return all_good;
   }
   HWY_INLINE void give(size_t first, bool all_good, T f) {
-    if (HWY_UNLIKELY(!all_good || has_formulas)) f = select(good_rows(first, f), f, not_a_number<T>());
+    if (HWY_UNLIKELY(!all_good || (has_formulas && !all_numbers(f))))
+      f = select(good_rows(first, f), f, not_a_number<T>());
     if (value == nullptr) return;
     store_lanes(value + first, count - first, lanes_of<T>(), 1, [&](float* to) HWY_ATTR { store(f, to); });
   }
   HWY_INLINE void give(size_t first, bool all_good, Field<T, D> f) {
     const size_t left = count - first;
-    if (HWY_UNLIKELY(!all_good || has_formulas)) {
-      if (has_formulas) f.gradient = finite_or_zero(f.gradient);
+    if (has_formulas) f.gradient = finite_or_zero(f.gradient);
+    if (HWY_UNLIKELY(!all_good || (has_formulas && !all_numbers(f.value)))) {
       const auto good = good_rows(first, f.value);
       f = {select(good, f.value, not_a_number<T>()), select(good, f.gradient, splat<T, D>(not_a_number<T>()))};
     }
@@ -80,15 +82,27 @@ struct RowColumns {
 
 template <int D>
 size_t values_of(const Tape& tape, const float* points, size_t count, float* value, float* scratch) {
-  using Mode = ValueMode<Pack<kValueWidth>, D>;
-  using T = typename Mode::T;
-  const Machine<T> m = machine_for<Mode>(tape, scratch);
-  RowColumns<T, D> rows{points, count, value, nullptr, tape.has_formulas};
-  for (size_t i = 0; i < count; i += lanes_of<T>()) {
-    const bool all_good = rows.take(i, m.positions);
-    rows.give(i, all_good, run(Mode{}, m).value);
+  using T = Pack<kValueWidth>;
+  size_t i = 0, bad_rows = 0;
+  if (tape.only_scalars) {
+    // What one chunk of fewer lanes can take is left to it.
+    RowColumns<ScalarChunk, D> rows{points, count, value, nullptr, true};
+    const ScalarMachine m = machine_for<ValueMode<ScalarChunk, D>>(tape, scratch);
+    HWY_ALIGN float f[kMostChunkLanes];
+    for (; i + lanes_of<T>() < count; i += lanes_of<ScalarChunk>()) {
+      const bool all_good = rows.take(i, m.positions);
+      run_scalars(m, D, f);
+      rows.give(i, all_good, Make<ScalarChunk>::load(f));
+    }
+    bad_rows = rows.bad_rows;
   }
-  return rows.bad_rows;
+  const Machine<T> m = machine_for<ValueMode<T, D>>(tape, scratch);
+  RowColumns<T, D> rows{points, count, value, nullptr, tape.has_formulas};
+  for (; i < count; i += lanes_of<T>()) {
+    const bool all_good = rows.take(i, m.positions);
+    rows.give(i, all_good, run(ValueMode<T, D>{}, m).value);
+  }
+  return bad_rows + rows.bad_rows;
 }
 
 template <int D>

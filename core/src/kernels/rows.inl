@@ -77,6 +77,12 @@ HWY_INLINE bool all_answerable(Point<T, D> p) {
   const auto most = hn::Set(d, kLargestCoordinate * kLargestCoordinate);
   return hn::AllTrue(d, hn::Le(sum_of_vectors(dot(p, p)), most));
 }
+/// Told from a sum that NaN spoils; infinities of both signs may spoil it too.
+template <class T>
+HWY_INLINE bool all_numbers(T f) {
+  const auto sum = sum_of_vectors(f);
+  return hn::AllTrue(F32(), hn::Eq(sum, sum));
+}
 /// A comparison with NaN is false, so each coordinate is asked on its own.
 template <class T>
 HWY_INLINE auto is_answerable(Point<T, 2> p) {

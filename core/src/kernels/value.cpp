@@ -8,20 +8,33 @@
 // foreach_target must come first
 #include <hwy/highway.h>
 
-#include "kernels/interpreter.inl"
+#include "kernels/scalars.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace thalweg {
 namespace HWY_NAMESPACE {
 
+template <class T, int D>
+HWY_INLINE void take_points(const float* const* points, size_t first, float* position) {
+  for (int axis = 0; axis < D; ++axis)
+    store(Make<T>::load(points[axis] + first), position + static_cast<size_t>(axis) * lanes_of<T>());
+}
+
 template <int D>
 void value_of(const Tape& tape, const float* const* points, size_t count, float* value, float* scratch) {
+  size_t i = 0;
+  if (tape.only_scalars) {
+    using T = ScalarChunk;
+    const Machine<T> m = machine_for<ValueMode<T, D>>(tape, scratch);
+    for (const size_t lanes = lanes_of<T>(); i + lanes <= padded(count); i += lanes) {
+      take_points<T, D>(points, i, m.positions);
+      run_scalars(m, D, value + i);
+    }
+  }
   using T = Pack<kValueWidth>;
   const Machine<T> m = machine_for<ValueMode<T, D>>(tape, scratch);
-  const size_t lanes = lanes_of<T>();
-  for (size_t i = 0; i < count; i += lanes) {
-    for (int axis = 0; axis < D; ++axis)
-      store(Make<T>::load(points[axis] + i), m.positions + static_cast<size_t>(axis) * lanes);
+  for (; i < count; i += lanes_of<T>()) {
+    take_points<T, D>(points, i, m.positions);
     store(run(ValueMode<T, D>{}, m).value, value + i);
   }
 }

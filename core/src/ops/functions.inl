@@ -24,7 +24,15 @@ HWY_INLINE Interval<T> within(const Interval<T>& a, double least, double most) {
 inline constexpr double kPiAbove = 3.1415929;
 inline constexpr double kHalfPiAbove = 1.5707965;
 
-THALWEG_OP : Unary {
+/// Their values are calls (kernels/functions.inl).
+struct UnaryFunction : Unary {
+  static constexpr bool kCallsFunction = true;
+};
+struct BinaryFunction : Binary {
+  static constexpr bool kCallsFunction = true;
+};
+
+THALWEG_OP : UnaryFunction {
   static constexpr Declaration kDeclaration = scalar("sin", "sin", "sine, in radians", 3);
   template <class T, int D>
   static HWY_INLINE Field<T, D> apply(const Field<T, D>& a) {
@@ -36,7 +44,7 @@ THALWEG_OP : Unary {
   }
 };
 
-THALWEG_OP : Unary {
+THALWEG_OP : UnaryFunction {
   static constexpr Declaration kDeclaration = scalar("cos", "cos", "cosine, in radians", 3);
   template <class T, int D>
   static HWY_INLINE Field<T, D> apply(const Field<T, D>& a) {
@@ -48,7 +56,7 @@ THALWEG_OP : Unary {
   }
 };
 
-THALWEG_OP : Unary {
+THALWEG_OP : UnaryFunction {
   static constexpr Declaration kDeclaration = scalar("tan", "tan", "tangent, in radians", 6);
   template <class T, int D>
   static HWY_INLINE Field<T, D> apply(const Field<T, D>& a) {
@@ -67,7 +75,7 @@ THALWEG_OP : Unary {
   }
 };
 
-THALWEG_OP : Unary {
+THALWEG_OP : UnaryFunction {
   static constexpr Declaration kDeclaration = scalar("asin", "asin", "arc sine; not defined beyond 1", 3);
   template <class T, int D>
   static HWY_INLINE Field<T, D> apply(const Field<T, D>& a) {
@@ -80,7 +88,7 @@ THALWEG_OP : Unary {
   }
 };
 
-THALWEG_OP : Unary {
+THALWEG_OP : UnaryFunction {
   static constexpr Declaration kDeclaration = scalar("acos", "acos", "arc cosine; not defined beyond 1", 3);
   template <class T, int D>
   static HWY_INLINE Field<T, D> apply(const Field<T, D>& a) {
@@ -93,7 +101,7 @@ THALWEG_OP : Unary {
   }
 };
 
-THALWEG_OP : Unary {
+THALWEG_OP : UnaryFunction {
   static constexpr Declaration kDeclaration = scalar("atan", "atan", "arc tangent", 3);
   template <class T, int D>
   static HWY_INLINE Field<T, D> apply(const Field<T, D>& a) {
@@ -105,7 +113,7 @@ THALWEG_OP : Unary {
   }
 };
 
-THALWEG_OP : Unary {
+THALWEG_OP : UnaryFunction {
   static constexpr Declaration kDeclaration = scalar("exp", "exp", "e to the power of a", 2);
   template <class T, int D>
   static HWY_INLINE Field<T, D> apply(const Field<T, D>& a) {
@@ -119,7 +127,7 @@ THALWEG_OP : Unary {
   }
 };
 
-THALWEG_OP : Unary {
+THALWEG_OP : UnaryFunction {
   static constexpr Declaration kDeclaration = scalar("log", "ln", "natural logarithm; not defined at 0 and below", 4);
   template <class T, int D>
   static HWY_INLINE Field<T, D> apply(const Field<T, D>& a) {
@@ -132,7 +140,7 @@ THALWEG_OP : Unary {
 };
 
 /// The angle of the point (b, a), in (-pi, pi], and 0 at the origin.
-THALWEG_OP : Binary {
+THALWEG_OP : BinaryFunction {
   static constexpr Declaration kDeclaration = scalar("atan2", "atan2", "the angle of the point (b, a)", 5);
   template <class T, int D>
   static HWY_INLINE Field<T, D> apply(const Field<T, D>& a, const Field<T, D>& b) {
@@ -154,7 +162,7 @@ THALWEG_OP : Binary {
   }
 };
 
-THALWEG_OP : Binary {
+THALWEG_OP : BinaryFunction {
   static constexpr Declaration kDeclaration =
       scalar("mod", "mod", "what a leaves over by |b|, in [0, |b|); not defined for b = 0", 0.5);
   template <class T, int D>
@@ -188,7 +196,7 @@ HWY_INLINE auto is_even(T a) {
   return is_whole(a * Make<T>::set(0.5));
 }
 
-THALWEG_OP : Binary {
+THALWEG_OP : BinaryFunction {
   static constexpr Declaration kDeclaration =
       scalar("pow", "", "a to the power of b; not defined for 0 to a negative one, nor a < 0 to a fraction", 1);
   template <class T, int D>

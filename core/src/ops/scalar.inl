@@ -10,6 +10,7 @@
 
 struct Scalar {
   static constexpr std::array<OpParameter, 0> kParameters{};
+  static constexpr bool kCallsFunction = false;
 };
 struct Unary : Scalar {
   static constexpr int kOperands = 1;
@@ -252,6 +253,38 @@ THALWEG_OP : Binary {
   template <class T, int D>
   static HWY_INLINE Field<T, D> apply(const Field<T, D>& a, const Field<T, D>& b) {
     return {greatest(a.value, b.value), select(a.value < b.value, b.gradient, a.gradient)};
+  }
+  template <class T>
+  static HWY_INLINE Interval<T> enclose(const Interval<T>& a, const Interval<T>& b) {
+    return {greatest(a.lo, b.lo), greatest(a.hi, b.hi)};
+  }
+};
+
+/// min and max of operands that are numbers wherever a query may be: nothing need be asked of them. Written by the
+/// compiler alone.
+THALWEG_OP : Binary {
+  static constexpr Declaration kDeclaration = scalar("least", "", "the lesser of two numbers", 0);
+  static constexpr Selection kSelection = Selection::least;
+  static constexpr bool kCommutes = true;
+  static constexpr bool kInternal = true;
+  template <class T, int D>
+  static HWY_INLINE Field<T, D> apply(const Field<T, D>& a, const Field<T, D>& b) {
+    return {min(a.value, b.value), select(b.value < a.value, b.gradient, a.gradient)};
+  }
+  template <class T>
+  static HWY_INLINE Interval<T> enclose(const Interval<T>& a, const Interval<T>& b) {
+    return {least(a.lo, b.lo), least(a.hi, b.hi)};
+  }
+};
+
+THALWEG_OP : Binary {
+  static constexpr Declaration kDeclaration = scalar("greatest", "", "the greater of two numbers", 0);
+  static constexpr Selection kSelection = Selection::greatest;
+  static constexpr bool kCommutes = true;
+  static constexpr bool kInternal = true;
+  template <class T, int D>
+  static HWY_INLINE Field<T, D> apply(const Field<T, D>& a, const Field<T, D>& b) {
+    return {max(a.value, b.value), select(a.value < b.value, b.gradient, a.gradient)};
   }
   template <class T>
   static HWY_INLINE Interval<T> enclose(const Interval<T>& a, const Interval<T>& b) {

@@ -85,10 +85,38 @@ TEST(FormulaBuilder, KnowsNeutralNumbersAndPowers) {
 
 TEST(FormulaTape, HoldsConstantsInInstructions) {
   const Tape tape = *compile(expression("max(x - 0.5, 2 - x) * 3"));
-  EXPECT_EQ(tape.instructions.size(), 6U) << tape.disassembly();
+  EXPECT_EQ(tape.instructions.size(), 5U) << tape.disassembly();
   EXPECT_TRUE(tape.has_formulas);
-  EXPECT_NE(tape.disassembly().find("acc = sub(c, acc)"), std::string::npos) << tape.disassembly();
+  EXPECT_TRUE(tape.only_scalars);
+  EXPECT_NE(tape.disassembly().find("acc = sub(c, r0)"), std::string::npos) << tape.disassembly();
   EXPECT_NE(tape.disassembly().find("acc = mul(acc, c)"), std::string::npos) << tape.disassembly();
+}
+
+/// The op of a program's last instruction.
+std::string last_op(const char* text) {
+  const Tape tape = *compile(expression(text));
+  return std::string(ops::registry()[tape.instructions.back().op].row.name);
+}
+
+TEST(FormulaTape, ChoosesBetweenNumbersWithoutAskingWhetherTheyAre) {
+  EXPECT_EQ(last_op("min(x, y)"), "least");
+  EXPECT_EQ(last_op("max(x * x - 2, sqrt(abs(y)))"), "greatest");
+  EXPECT_EQ(last_op("max(1 / (1 + x * x), y)"), "greatest");
+}
+
+TEST(FormulaTape, AsksOfWhatMayBeUndefinedSomewhere) {
+  EXPECT_EQ(last_op("min(sqrt(x), y)"), "min");
+  EXPECT_EQ(last_op("max(y, 1 / x)"), "max");
+  EXPECT_EQ(last_op("max(y, log(x * x))"), "max");
+  // Beyond what float32 can hold, far out, where an infinity less another is no number.
+  EXPECT_EQ(last_op("min(x * x * x - y * y * y, x)"), "min");
+}
+
+TEST(FormulaTape, IsOfScalarsAloneWhereNoFieldIsJoinedToIt) {
+  const Tape joined = *compile(expression("x - 1") | circle(1));
+  EXPECT_TRUE(joined.has_formulas);
+  EXPECT_FALSE(joined.only_scalars);
+  EXPECT_FALSE((*compile(circle(1))).only_scalars);
 }
 
 TEST(FormulaTape, HoldsWhatFloat32CannotBetweenItsNeighbours) {
