@@ -23,9 +23,6 @@ namespace {
 
 /// Points per tile.
 constexpr std::size_t kTile = 4096;
-/// Ordering costs some 13 ns a point: tapes from this length on pay for it, with gradients shorter ones.
-constexpr std::size_t kLongTapeForValues = 160;
-constexpr std::size_t kLongTapeForGradients = 80;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 const Target& target_of(const Execution& execution) {
@@ -53,9 +50,9 @@ class EvaluateTask final : public TileTask, public OrderedBatch::Answer {
 
   EvaluateSummary run() {
     bool complete = false;
-    const std::size_t least = out_.gradient == nullptr ? kLongTapeForValues : kLongTapeForGradients;
     // Nearest surface points may be anywhere, where a tape shortened for the points says nothing.
-    if ((in_rows() || rule_.strategy != Gradient::closest_point) && OrderedBatch::suits(tape_, points_.count, least)) {
+    if ((in_rows() || rule_.strategy != Gradient::closest_point) &&
+        OrderedBatch::suits_points(tape_, points_.count, out_.gradient != nullptr)) {
       const Surroundings around{.bounds = false, .sizes = 0, .probe = in_rows() ? ProbeRule{} : rule_.probe};
       OrderedBatch batch(tape_, {.dimension = d_}, points_.rows, points_.count, around, execution_);
       complete = batch.run(*this);

@@ -12,6 +12,7 @@
 #include <limits>
 
 #include "gradient/ties.h"
+#include "ops/registry.h"
 #include "schedule.h"
 
 namespace thalweg {
@@ -26,6 +27,23 @@ constexpr std::size_t kFewRows = 32;
 constexpr std::size_t kHeldTasks = 1024;
 /// Rows ahead of which the gathering loop asks for memory.
 constexpr std::size_t kAhead = 24;
+/// Row numbers are of 32 bits.
+constexpr std::size_t kMostOrdered = std::numeric_limits<std::uint32_t>::max();
+/// Nanoseconds, to weigh one against the other (measured on points of 100 to 2000 primitives and of formulas): to order
+/// a row and answer it, and to shorten a tape for a batch and for a row, of each instruction. Those of evaluating an
+/// instruction are in suits_points.
+constexpr double kOrdering = 12, kShortening = 180, kShorteningForRow = 0.002;
+
+/// Whether enough instructions choose between two operands, one of which may be left out.
+bool is_shortened(const Tape& tape) {
+  const auto chooses = [](const Instruction& in) {
+    if (in.op >= Instruction::kKeep) return false;
+    const ops::Entry& entry = ops::registry()[in.op];
+    return entry.row.kind == OpKind::combine || entry.selects;
+  };
+  const auto choices = static_cast<std::size_t>(std::ranges::count_if(tape.instructions, chooses));
+  return 8 * choices >= tape.instructions.size();
+}
 
 }  // namespace
 
@@ -65,9 +83,16 @@ struct OrderedBatch::Solve final : TileTask {
   Answer& answer;
 };
 
-bool OrderedBatch::suits(const Tape& tape, std::size_t count, std::size_t least_length) {
-  return tape.instructions.size() >= least_length && count >= kLeafRows &&
-         count < std::numeric_limits<std::uint32_t>::max();
+bool OrderedBatch::suits_queries(const Tape& tape, std::size_t count) {
+  return tape.instructions.size() >= kLongTape && count >= kLeafRows && count < kMostOrdered && is_shortened(tape);
+}
+
+bool OrderedBatch::suits_points(const Tape& tape, std::size_t count, bool with_gradient) {
+  if (count < kLeafRows || count >= kMostOrdered) return false;
+  const auto length = static_cast<double>(tape.instructions.size());
+  const double instruction = tape.only_scalars ? (with_gradient ? 0.05 : 0.021) : (with_gradient ? 0.11 : 0.05);
+  const double ordered = kOrdering + length * (kShortening / static_cast<double>(count) + kShorteningForRow);
+  return instruction * length > ordered && is_shortened(tape);
 }
 
 OrderedBatch::OrderedBatch(const Tape& tape, const RowLayout& layout, const float* rows, std::size_t count,

@@ -38,8 +38,9 @@ class OrderedBatch {
     virtual void answer(const Part& part) = 0;
   };
 
-  /// Whether it pays.
-  [[nodiscard]] static bool suits(const Tape& tape, std::size_t count, std::size_t least_length);
+  /// Whether it pays, for queries that ask a tape so often that its length says it, and for single values or gradients.
+  [[nodiscard]] static bool suits_queries(const Tape& tape, std::size_t count);
+  [[nodiscard]] static bool suits_points(const Tape& tape, std::size_t count, bool with_gradient);
 
   OrderedBatch(const Tape& tape, const RowLayout& layout, const float* rows, std::size_t count,
                const Surroundings& surroundings, const Execution& execution);

@@ -223,11 +223,12 @@ THALWEG_FUNCTION_2(pow, InDouble::pow(a.v, b.v), pow_of(a.v, b.v))
 #undef THALWEG_FUNCTION_1
 #undef THALWEG_FUNCTION_2
 
-/// Slopes that overflow on the way count as 0, so that finite values have finite gradients.
+/// Slopes that overflow on the way count as 0, so that finite values have finite gradients. Zeros come out positive.
 template <class T>
 HWY_INLINE Point<T, 2> finite_or_zero(Point<T, 2> g) {
   const T most = Make<T>::set(Precision<T>::kLargest);
-  return {select(abs(g.x) <= most, g.x, zero<T>()), select(abs(g.y) <= most, g.y, zero<T>())};
+  const T none = zero<T>();
+  return {select(abs(g.x) <= most, g.x + none, none), select(abs(g.y) <= most, g.y + none, none)};
 }
 template <class T>
 HWY_INLINE Point<T, 3> finite_or_zero(Point<T, 3> g) {

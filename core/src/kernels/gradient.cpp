@@ -8,28 +8,37 @@
 // foreach_target must come first
 #include <hwy/highway.h>
 
-#include "kernels/interpreter.inl"
+#include "kernels/scalars.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace thalweg {
 namespace HWY_NAMESPACE {
 
-template <int D>
-void gradient_of(const Tape& tape, const float* const* points, size_t count, float* value, float* const* gradient,
+template <class Mode>
+void gradient_by(const Tape& tape, const float* const* points, size_t count, float* value, float* const* gradient,
                  float* scratch) {
-  using T = Pack<kGradientWidth>;
-  const Machine<T> m = machine_for<GradientMode<T, D>>(tape, scratch);
+  using T = typename Mode::T;
+  constexpr int D = Mode::D;
+  const Machine<T> m = machine_for<Mode>(tape, scratch);
   const size_t lanes = lanes_of<T>();
   for (size_t i = 0; i < count; i += lanes) {
     for (int axis = 0; axis < D; ++axis)
       store(Make<T>::load(points[axis] + i), m.positions + static_cast<size_t>(axis) * lanes);
-    Field<T, D> f = divided(run(GradientMode<T, D>{}, m));
+    Field<T, D> f = divided(run(Mode{}, m));
     if (tape.has_formulas) f.gradient = finite_or_zero(f.gradient);
     if (value != nullptr) store(f.value, value + i);
     store(f.gradient.x, gradient[0] + i);
     store(f.gradient.y, gradient[1] + i);
     if constexpr (D == 3) store(f.gradient.z, gradient[2] + i);
   }
+}
+
+template <int D>
+void gradient_of(const Tape& tape, const float* const* points, size_t count, float* value, float* const* gradient,
+                 float* scratch) {
+  using T = Pack<kPlainGradientWidth>;
+  const auto by_mode = tape.only_scalars ? gradient_by<ScalarGradientMode<T, D>> : gradient_by<GradientMode<T, D>>;
+  by_mode(tape, points, count, value, gradient, scratch);
 }
 
 void gradient_kernel(const Tape& tape, const float* const* points, size_t count, float* value, float* const* gradient,

@@ -25,6 +25,13 @@ HWY_BEFORE_NAMESPACE();
 namespace thalweg {
 namespace HWY_NAMESPACE {
 
+/// Of plain gradients: 32 registers hold twice as many vectors as 16.
+#if HWY_TARGET <= HWY_AVX3 || HWY_ARCH_ARM
+inline constexpr int kPlainGradientWidth = kMostGradientWidth;
+#else
+inline constexpr int kPlainGradientWidth = kGradientWidth;
+#endif
+
 template <class T>
 HWY_INLINE size_t lanes_of() {
   if constexpr (std::is_same_v<T, Real>) {
@@ -355,6 +362,12 @@ HWY_INLINE void scalar_step(const Mode& mode, const Machine<typename Mode::T>& m
   }
 }
 
+/// Whether a mode runs anything but scalar instructions.
+template <class Mode>
+inline constexpr bool kHasFields = true;
+template <class Mode>
+requires(!Mode::kHasFields) inline constexpr bool kHasFields<Mode> = false;
+
 template <class Declared, class Mode>
 HWY_INLINE void step(const Mode& mode, const Machine<typename Mode::T>& m, const Instruction& in,
                      typename Mode::Register& acc) {
@@ -362,7 +375,7 @@ HWY_INLINE void step(const Mode& mode, const Machine<typename Mode::T>& m, const
   constexpr int D = Mode::D;
   constexpr OpKind kKind = Declared::kDeclaration.kind;
   [[maybe_unused]] const Constants<T> c = constants_of(m, in);
-  if constexpr (!kApplies<Declared, D>) {
+  if constexpr (!kApplies<Declared, D> || (!kHasFields<Mode> && kKind != OpKind::scalar)) {
     HWY_ASSUME(false);
   } else if constexpr (kKind == OpKind::primitive) {
     const auto at = load_point<T, D>(m.positions + in.operand * D * lanes_of<T>());

@@ -15,10 +15,12 @@
 
 namespace thalweg {
 
-/// Vectors of float32 in flight per chunk: four hide the latency of a value's instructions; gradients and enclosures
-/// need the registers themselves and do best with two (measured, evaluate/* of thalweg_bench).
+/// Vectors of float32 in flight per chunk: four hide the latency of a value's instructions; gradients, where a target
+/// has few registers, and enclosures need the registers themselves and do best with two (measured, evaluate/* and
+/// triangles/* of thalweg_bench).
 inline constexpr int kValueWidth = 4;
 inline constexpr int kGradientWidth = 2;
+inline constexpr int kMostGradientWidth = 4;
 /// Scalar instructions are short: more vectors share the way to each.
 inline constexpr int kScalarWidth = 8;
 /// The widest chunk of any target: kScalarWidth vectors of 512 bits.
@@ -66,14 +68,15 @@ struct GradientColumns {
   return (static_cast<std::size_t>(tape.position_count) + 15) / 16 * 16;
 }
 
-/// Floats of scratch that any of the evaluating kernels needs for a tape; align it to 64 bytes. Enclosures with
-/// gradients have the widest registers, 3 + d numbers a lane, values the most lanes.
+/// Floats of scratch that any of the evaluating kernels needs for a tape; align it to 64 bytes. Gradients have the
+/// largest registers, 2 + d numbers a lane, values the most lanes.
 [[nodiscard]] constexpr std::size_t scratch_floats(const Tape& tape) {
   const auto registers = static_cast<std::size_t>(tape.register_count);
   const auto positions = static_cast<std::size_t>(tape.position_count);
   const auto dimension = static_cast<std::size_t>(tape.dimension);
-  static_assert(kMostChunkLanes <= kGradientWidth * 16 * std::size_t{4});
-  return kGradientWidth * 16 * registers * (dimension + 3) + kMostChunkLanes * positions * dimension +
+  constexpr std::size_t kGradientLanes = kMostGradientWidth * 16;
+  static_assert(kMostChunkLanes <= kGradientLanes * 4 && kGradientWidth * 5 <= kMostGradientWidth * 4);
+  return kGradientLanes * registers * (dimension + 2) + kMostChunkLanes * positions * dimension +
          definition_floats(tape);
 }
 

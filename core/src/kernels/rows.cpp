@@ -105,11 +105,11 @@ size_t values_of(const Tape& tape, const float* points, size_t count, float* val
   return bad_rows + rows.bad_rows;
 }
 
-template <int D>
-size_t gradients_of(const Tape& tape, const float* points, size_t count, float* value, float* gradient,
+template <class Mode>
+size_t gradients_by(const Tape& tape, const float* points, size_t count, float* value, float* gradient,
                     float* scratch) {
-  using Mode = GradientMode<Pack<kGradientWidth>, D>;
   using T = typename Mode::T;
+  constexpr int D = Mode::D;
   const Machine<T> m = machine_for<Mode>(tape, scratch);
   RowColumns<T, D> rows{points, count, value, gradient, tape.has_formulas};
   for (size_t i = 0; i < count; i += lanes_of<T>()) {
@@ -117,6 +117,14 @@ size_t gradients_of(const Tape& tape, const float* points, size_t count, float* 
     rows.give(i, all_good, divided(run(Mode{}, m)));
   }
   return rows.bad_rows;
+}
+
+template <int D>
+size_t gradients_of(const Tape& tape, const float* points, size_t count, float* value, float* gradient,
+                    float* scratch) {
+  using T = Pack<kPlainGradientWidth>;
+  const auto by_mode = tape.only_scalars ? gradients_by<ScalarGradientMode<T, D>> : gradients_by<GradientMode<T, D>>;
+  return by_mode(tape, points, count, value, gradient, scratch);
 }
 
 size_t rows_kernel(const Tape& tape, const float* points, size_t count, float* value, float* gradient, float* scratch) {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The thalweg authors
 // SPDX-License-Identifier: MIT
 //
-// Values of tapes whose instructions are all scalar (Tape::only_scalars), compiled once per SIMD target.
+// Tapes whose instructions are all scalar (Tape::only_scalars).
+// Included once per SIMD target.
 #if defined(THALWEG_KERNELS_SCALARS_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef THALWEG_KERNELS_SCALARS_H
 #undef THALWEG_KERNELS_SCALARS_H
@@ -20,6 +21,40 @@ using ScalarMachine = Machine<ScalarChunk>;
 
 /// Runs the tape over one chunk whose points are at position 0.
 void run_scalars(const ScalarMachine& m, int dimension, float* value);
+
+/// The machine's mode for f and its gradient: unlike fields, formulas leave nothing to divide.
+template <class T_, int D_>
+struct ScalarGradientMode {
+  using T = T_;
+  static constexpr int D = D_;
+  static constexpr size_t kComponents = 1 + D;
+  static constexpr bool kHasScalars = true;
+  static constexpr bool kHasFields = false;
+  using Register = Field<T, D>;
+
+  template <class Declared>
+  HWY_INLINE Register leaf(const Machine<T>&, const Instruction&, Point<T, D> p, Constants<T> c) const {
+    return Declared::leaf(p, c);
+  }
+  template <class Declared>
+  HWY_INLINE Register unary(const Machine<T>&, const Instruction&, const Register& a) const {
+    return Declared::apply(a);
+  }
+  template <class Declared>
+  HWY_INLINE Register binary(const Machine<T>&, const Instruction&, const Register& a, const Register& b) const {
+    return Declared::apply(a, b);
+  }
+  static HWY_INLINE Register immediate(Constants<T> c) { return without_slope<T, D>(c[0]); }
+  template <class S>
+  static HWY_INLINE Register load(const S* from) {
+    return {Make<T>::load(from), load_point<T, D>(from + lanes_of<T>())};
+  }
+  template <class S>
+  static HWY_INLINE void save(const Register& a, S* to) {
+    store(a.value, to);
+    store_point(a.gradient, to + lanes_of<T>());
+  }
+};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace thalweg
