@@ -20,14 +20,14 @@ class Arguments(CliCase):
         self.eval = ("eval", "circle.json", "--points", "points.npy")
 
     def test_a_missing_command_is_refused_with_the_list(self):
-        self.assertIn("info, ops, eval, collide, render", self.refuse())
+        self.assertIn("info, ops, eval, collide, distance, render", self.refuse())
 
     def test_an_unknown_command_is_named(self):
         self.assertIn("'bogus'", self.refuse("bogus"))
         self.assertIn("--bogus", self.refuse("--bogus"))
 
     def test_commands_of_later_versions_are_unknown(self):
-        for command in ("sweep", "distance", "simulate"):
+        for command in ("sweep", "simulate"):
             self.refuse(command, "circle.json")
 
     def test_unknown_options_and_extra_arguments_are_refused(self):

@@ -104,6 +104,9 @@ class Pairs(CliCase):
         report = json.loads(done.stdout)
         self.assertEqual({"separated": 2, "overlapping": 1, "touching": 0, "undecided": 0, "bad_row": 1}, report["status"])
         self.assertEqual(2, report["contacts"])
+        size = math.hypot(5, 0.6)
+        self.assertAlmostEqual(1e-4 * size, report["tolerance"])
+        self.assertAlmostEqual(size / 32, report["region"])
 
     def test_spheres_in_three_dimensions(self):
         self.save("poses.npy", [3, 0, 0, 1, 0, 0, 0], (1, 7))

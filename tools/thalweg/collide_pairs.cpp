@@ -104,6 +104,7 @@ struct PathResult {
 struct Run {
   Summary summary;
   double seconds = 0;
+  double tolerance = 0, region = 0;  ///< as they stood
 };
 
 Json report_json(const PairRequest& request, const Globals& globals, const Run& run, std::size_t contacts) {
@@ -120,6 +121,8 @@ Json report_json(const PairRequest& request, const Globals& globals, const Run& 
       {"evaluations", run.summary.evaluations},
       {"method", name(request.options.method)},
       {"goal", name(request.options.goal)},
+      {"tolerance", run.tolerance},
+      {"region", run.region},
       {"budget", request.options.budget}};
   if (request.wants_contacts) json["contacts"] = contacts;
   add_run(json, globals, run.summary.rows, run.seconds);
@@ -135,8 +138,9 @@ std::string report_text(const PairRequest& request, const Globals& globals, cons
     sheet.add(fmt::format("  {}", kLabels[i]), fmt::format("{:>12}", grouped(run.summary.by_status[i])));
   }
   if (request.wants_contacts) sheet.add("contacts", grouped(contacts));
-  sheet.add("method", fmt::format("{}, goal {}, budget {}", name(request.options.method), name(request.options.goal),
-                                  request.options.budget));
+  sheet.add("method",
+            fmt::format("{}, goal {}, tolerance {:.4g}, region {:.4g}, budget {}", name(request.options.method),
+                        name(request.options.goal), run.tolerance, run.region, request.options.budget));
   sheet.add("evaluations", grouped(run.summary.evaluations));
   sheet.add("elapsed", run_text(globals, run.summary.rows, run.seconds, "poses"));
   return sheet.text();
@@ -150,7 +154,7 @@ Run run_batch(const PairRequest& request, const PairQueries& queries, const Coll
   const Stopwatch watch;
   Result<Summary> summary = collide_pairs(queries, request.options, columns, contacts, execution, paths);
   const double seconds = watch.seconds();
-  return {unwrap(std::move(summary), kCommandLine, "--with"), seconds};
+  return {unwrap(std::move(summary), kCommandLine, "--with"), seconds, 0, 0};
 }
 
 }  // namespace
@@ -177,9 +181,11 @@ ExitCode run_collide_pairs(const PairRequest& request, const Globals& globals) {
   const auto d = static_cast<std::size_t>(first.dimension);
   ContactResult contacts(queries.count, request.wants_contacts ? request.contacts : 0, d);
   PathResult paths(request.options, request.wants_paths ? queries.count : 0, d);
-  const Run run =
-      run_batch(request, queries, result.columns(), request.wants_contacts ? contacts.slots() : PairContacts{}, globals,
-                request.wants_paths ? paths.slots() : PairPaths{});
+  Run run = run_batch(request, queries, result.columns(), request.wants_contacts ? contacts.slots() : PairContacts{},
+                      globals, request.wants_paths ? paths.slots() : PairPaths{});
+  const double size = pair_size(a, b);
+  run.tolerance = request.options.tolerance > 0 ? request.options.tolerance : 1e-4 * size;
+  run.region = request.options.region > 0 ? request.options.region : size / 32;
   std::vector<Column> columns = result.list();
   if (request.wants_contacts) {
     contacts.pack();

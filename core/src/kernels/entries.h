@@ -21,5 +21,6 @@ namespace thalweg {
 [[nodiscard]] TriangleSolver certify_triangles_entry(std::int64_t target);
 [[nodiscard]] CircleSolver certify_circles_entry(std::int64_t target);
 [[nodiscard]] PairSolver certify_pairs_entry(std::int64_t target);
+[[nodiscard]] DistanceSolver certify_distances_entry(std::int64_t target);
 
 }  // namespace thalweg

@@ -109,6 +109,7 @@ struct CircleTile;
 struct TileScratch;
 struct PairTile;
 struct PairScratch;
+struct DistanceTile;
 struct QueryTile;
 struct QueryState;
 class Arena;
@@ -117,6 +118,7 @@ using FinishKernel = void (*)(const QueryTile& tile, const QueryState& state, fl
 using TriangleSolver = void (*)(const TriangleTile& tile, TileScratch& scratch);
 using CircleSolver = void (*)(const CircleTile& tile, TileScratch& scratch);
 using PairSolver = void (*)(const PairTile& tile, PairScratch& scratch);
+using DistanceSolver = void (*)(const DistanceTile& tile, PairScratch& scratch);
 
 struct Kernels {
   ValueKernel value = nullptr;
@@ -130,6 +132,7 @@ struct Kernels {
   TriangleSolver certify_triangles = nullptr;
   CircleSolver certify_circles = nullptr;
   PairSolver certify_pairs = nullptr;
+  DistanceSolver certify_distances = nullptr;
 };
 
 }  // namespace thalweg

@@ -41,7 +41,8 @@ TargetList make_targets() {
                             .finish = finish_entry(target),
                             .certify_triangles = certify_triangles_entry(target),
                             .certify_circles = certify_circles_entry(target),
-                            .certify_pairs = certify_pairs_entry(target)});
+                            .certify_pairs = certify_pairs_entry(target),
+                            .certify_distances = certify_distances_entry(target)});
     list.targets.push_back({.name = hwy::TargetName(target),
                             .fused_multiply_add = fuses_multiply_add(target),
                             .kernels = &list.kernels.back()});

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "thalweg/distance.h"
 #include "thalweg/pairs.h"
 #include "thalweg/query.h"
 #include "thalweg/simd.h"
@@ -99,6 +100,10 @@ struct GridColumns {
 [[nodiscard]] Result<Summary> collide_pairs(const PairQueries& queries, const PairOptions& options,
                                             const CollideColumns& columns, const PairContacts& contacts = {},
                                             const Execution& execution = {}, const PairPaths& paths = {});
+
+/// How far shapes are apart, one pose a row; see thalweg/distance.h. Refuses two unbounded shapes, and formulas.
+[[nodiscard]] Result<Summary> measure_distances(const PairQueries& queries, const DistanceOptions& options,
+                                                const DistanceColumns& columns, const Execution& execution = {});
 
 /// The tolerance that stands for CollideOptions::tolerance = 0.
 [[nodiscard]] double default_tolerance(const Tape& tape);

@@ -27,28 +27,10 @@ void set_rotation(const double* q, double square, double* m) {
   m[8] = 1 - s * (x * x + y * y);
 }
 
-/// Axis-aligned box in A's frame around a box of B's; unbounded sides stay unbounded.
-Bounds placed(const Bounds& box, const Pose64& pose, int dimension) {
-  Bounds result;
-  for (int row = 0; row < dimension; ++row) {
-    double lo = pose.translation[row];
-    double hi = lo;
-    for (int column = 0; column < dimension; ++column) {
-      const double factor = pose.rotation[3 * row + column];
-      if (factor == 0) continue;
-      lo += factor * (factor > 0 ? box.lo[column] : box.hi[column]);
-      hi += factor * (factor > 0 ? box.hi[column] : box.lo[column]);
-    }
-    result.lo[row] = lo;
-    result.hi[row] = hi;
-  }
-  return result;
-}
-
 void set_region(PairProblem& p) {
   const Bounds a = p.a->facts.bounds;
   const bool none = a.empty(p.dimension) || p.b->facts.bounds.empty(p.dimension);
-  const Bounds b = none ? a : placed(p.b->facts.bounds, p.pose, p.dimension);
+  const Bounds b = none ? a : p.pose.to_a(p.b->facts.bounds, p.dimension);
   const auto is_exact = [](const Tape& t) { return t.facts.outside == Exactness::exact; };
   p.outside = is_exact(*p.a) && is_exact(*p.b) ? p.limits.tolerance : 0;
   for (int axis = 0; axis < p.dimension; ++axis) {
@@ -70,8 +52,9 @@ bool is_finite(const Tape& tape) {
   return tape.facts.bounds.finite(tape.dimension) || tape.facts.bounds.empty(tape.dimension);
 }
 
-/// The smaller of the two boxes by its diagonal.
-double smaller_diagonal(const Tape& a, const Tape& b) {
+}  // namespace
+
+double pair_size(const Tape& a, const Tape& b) {
   const auto diagonal = [](const Tape& t) {
     const bool usable = t.facts.bounds.finite(t.dimension);
     return usable ? t.facts.bounds.diagonal(t.dimension) : Bounds::kInfinity;
@@ -79,8 +62,6 @@ double smaller_diagonal(const Tape& a, const Tape& b) {
   const double least = std::min(diagonal(a), diagonal(b));
   return std::isfinite(least) && least > 0 ? least : 1;
 }
-
-}  // namespace
 
 void Pose64::to_b(const double* point, double* in_b, int dimension) const {
   double from[3] = {};
@@ -96,6 +77,23 @@ void Pose64::turn_to_a(const double* direction, double* in_a, int dimension) con
     in_a[row] = 0;
     for (int column = 0; column < dimension; ++column) in_a[row] += rotation[3 * row + column] * direction[column];
   }
+}
+
+Bounds Pose64::to_a(const Bounds& box, int dimension) const {
+  Bounds result;
+  for (int row = 0; row < dimension; ++row) {
+    double lo = translation[row];
+    double hi = lo;
+    for (int column = 0; column < dimension; ++column) {
+      const double factor = rotation[3 * row + column];
+      if (factor == 0) continue;
+      lo += factor * (factor > 0 ? box.lo[column] : box.hi[column]);
+      hi += factor * (factor > 0 ? box.hi[column] : box.lo[column]);
+    }
+    result.lo[row] = lo;
+    result.hi[row] = hi;
+  }
+  return result;
 }
 
 bool read_pose(const PairQueries& queries, std::size_t row, int dimension, Pose64& pose) {
@@ -146,7 +144,7 @@ double PairProblem::slack(double largest) const {
 }
 
 PairLimits limits_of(const Tape& a, const Tape& b, const PairOptions& options) {
-  const double diagonal = smaller_diagonal(a, b);
+  const double diagonal = pair_size(a, b);
   PairLimits limits;
   limits.goal = options.goal;
   limits.method = options.method;

@@ -18,6 +18,8 @@ struct Pose64 {
   void to_b(const double* point, double* in_b, int dimension) const;
   /// A direction of B's frame in A's.
   void turn_to_a(const double* direction, double* in_a, int dimension) const;
+  /// The box in A's frame around a box of B's; unbounded sides stay unbounded.
+  [[nodiscard]] Bounds to_a(const Bounds& box, int dimension) const;
 };
 
 /// Reads row `row` of the queries; false when it cannot be answered.
