@@ -44,6 +44,23 @@ Shape scene3() {
   return body | ball | mirror(round(box(Vec3{5, 8, 5}), 2).translate(Vec3{20, -30, 0}), 0);
 }
 
+/// Choices that are sure and such that are not, functions, and a constant in every place.
+Shape formula2() {
+  return expression(
+      "min(max(abs(x / 300 - 2) - 1, 1.5 - y / 200), sqrt(square(x / 100 - 9) + square(y / 100 - 5)) - 2) "
+      "+ 0.1 * sin(x / 50) * exp(0 - abs(y / 400)) - max(0.2, min(0.3, 2 - sqrt(x / 200)))");
+}
+Shape formula3() {
+  return expression(
+      "max(max(abs(x / 40 - 1) - 0.8, abs(y / 30) - 1), square(x / 20) / 9 + cos(z / 9) - atan2(y / 10, z / 10 + 7))", 3);
+}
+
+/// What is moved about the scene of pairs, and distances: a body of several parts, and another one with a hole.
+Shape mover(int dimension) {
+  if (dimension == 2) return smooth_union(3, {box(Vec2{160, 40}), star(120, 7, 4).translate(Vec2{130, 40})});
+  return smooth_union(1, {box(Vec3{20, 4, 6}), sphere(9).translate(Vec3{18, 5, 0})});
+}
+
 struct Box {
   double least, most;
 };
@@ -98,6 +115,17 @@ std::vector<float> points(Random& random, int dimension, std::size_t count) {
   return rows;
 }
 
+std::vector<float> poses(Random& random, int dimension, std::size_t count) {
+  std::vector<float> rows;
+  for (std::size_t i = 0; i < count; ++i) {
+    double centre[3] = {};
+    add_centre(random, dimension, centre);
+    for (int axis = 0; axis < dimension; ++axis) rows.push_back(static_cast<float>(centre[axis]));
+    for (int k = 0; k < (dimension == 2 ? 1 : 4); ++k) rows.push_back(static_cast<float>(random.uniform(-1, 1)));
+  }
+  return rows;
+}
+
 /// Rows that cannot be answered, among the others.
 void spoil(std::vector<float>& rows) {
   rows[rows.size() / 2] = std::numeric_limits<float>::quiet_NaN();
@@ -135,7 +163,15 @@ Workload::Workload(std::string_view name) {
     kind_ = Kind::grid;
     return;
   }
-  if (name.starts_with("eval")) {
+  if (name.starts_with("pairs") || name.starts_with("distances")) {
+    kind_ = name.starts_with("pairs") ? Kind::pairs : Kind::distances;
+    second_ = compiled(mover(d));
+    rows_ = poses(random, d, count_ = 200);
+  } else if (name.starts_with("formula")) {
+    tape_ = compiled(is_3d ? formula3() : formula2());
+    kind_ = rest == "verdict" ? Kind::triangles : Kind::points;
+    rows_ = rest == "verdict" ? triangles(random, d, count_ = 200) : points(random, d, count_);
+  } else if (name.starts_with("eval")) {
     kind_ = Kind::points;
     gradient_ = *parse_gradient(rest);
     rows_ = points(random, d, count_ *= 2);
@@ -154,6 +190,8 @@ Workload::Workload(std::string_view name) {
 
 std::uint64_t Workload::run(const Execution& execution) const {
   if (kind_ == Kind::grid) return run_grid(execution);
+  if (kind_ == Kind::pairs) return run_pairs(execution);
+  if (kind_ == Kind::distances) return run_distances(execution);
   return kind_ == Kind::points ? run_points(execution) : run_queries(execution);
 }
 
@@ -186,6 +224,59 @@ std::uint64_t Workload::run_grid(const Execution& execution) const {
     if (!evaluated) throw std::logic_error(to_string(evaluated.error()));
     hash.add(value), hash.add(inside);
   }
+  return hash.value();
+}
+
+PairQueries Workload::pair_queries(const Tape* const* shapes) const {
+  return {.shapes = shapes, .shape_count = 2, .poses = rows_.data(), .count = count_};
+}
+
+std::uint64_t Workload::run_pairs(const Execution& execution) const {
+  const auto d = static_cast<std::size_t>(tape_.dimension), slots = std::size_t{4};
+  auto status = filled<std::uint8_t>(count_), converged = status, of_contact = filled<std::uint8_t>(slots * count_);
+  auto evaluations = filled<std::uint32_t>(count_), found = evaluations;
+  auto value = filled<float>(count_), lower = value, point = filled<float>(d * count_), normal = point;
+  auto contact_point = filled<float>(slots * d * count_), contact_normal = contact_point;
+  auto contact_value = filled<float>(slots * count_), contact_lower = contact_value;
+  CollideColumns columns;
+  columns.status = status.data(), columns.converged = converged.data(), columns.evaluations = evaluations.data();
+  columns.value = value.data(), columns.lower = lower.data();
+  columns.point = point.data(), columns.normal = normal.data();
+  PairContacts contacts;
+  contacts.capacity = options_.goal == Goal::deepest ? slots : 0;
+  contacts.found = contacts.capacity == 0 ? nullptr : found.data();
+  contacts.point = contact_point.data(), contacts.normal = contact_normal.data();
+  contacts.value = contact_value.data(), contacts.lower = contact_lower.data();
+  contacts.converged = of_contact.data();
+  PairOptions options;
+  static_cast<CollideOptions&>(options) = options_;
+  const Tape* const shapes[] = {&tape_, &second_};
+  const auto summary = collide_pairs(pair_queries(shapes), options, columns, contacts, execution);
+  if (!summary) throw std::logic_error(to_string(summary.error()));
+  Hash hash;
+  for (const auto* column : {&status, &converged, &of_contact}) hash.add(*column);
+  for (const auto* column : {&evaluations, &found}) hash.add(*column);
+  for (const auto* column : {&value, &lower, &point, &normal}) hash.add(*column);
+  for (const auto* column : {&contact_point, &contact_normal, &contact_value, &contact_lower}) hash.add(*column);
+  return hash.value();
+}
+
+std::uint64_t Workload::run_distances(const Execution& execution) const {
+  const auto d = static_cast<std::size_t>(tape_.dimension);
+  auto status = filled<std::uint8_t>(count_), converged = status;
+  auto distance = filled<float>(count_), lower = distance;
+  auto point_a = filled<float>(d * count_), point_b = point_a, normal = point_a;
+  auto evaluations = filled<std::uint32_t>(count_);
+  const Tape* const shapes[] = {&tape_, &second_};
+  const auto summary = measure_distances(pair_queries(shapes), {},
+                                         {status.data(), distance.data(), lower.data(), point_a.data(), point_b.data(),
+                                          normal.data(), converged.data(), evaluations.data()},
+                                         execution);
+  if (!summary) throw std::logic_error(to_string(summary.error()));
+  Hash hash;
+  for (const auto* column : {&status, &converged}) hash.add(*column);
+  for (const auto* column : {&distance, &lower, &point_a, &point_b, &normal}) hash.add(*column);
+  hash.add(evaluations);
   return hash.value();
 }
 

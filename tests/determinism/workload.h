@@ -39,14 +39,18 @@ class Workload {
   [[nodiscard]] const Tape& tape() const { return tape_; }
 
  private:
-  enum class Kind { triangles, circles, points, grid };
+  enum class Kind { triangles, circles, points, grid, pairs, distances };
 
   [[nodiscard]] std::uint64_t run_queries(const Execution& execution) const;
   [[nodiscard]] std::uint64_t run_points(const Execution& execution) const;
   [[nodiscard]] std::uint64_t run_grid(const Execution& execution) const;
+  [[nodiscard]] std::uint64_t run_pairs(const Execution& execution) const;
+  [[nodiscard]] std::uint64_t run_distances(const Execution& execution) const;
+  [[nodiscard]] PairQueries pair_queries(const Tape* const* shapes) const;
 
   Kind kind_ = Kind::triangles;
   Tape tape_;
+  Tape second_;  ///< pairs and distances
   CollideOptions options_;
   Gradient gradient_ = Gradient::autodiff;
   std::vector<float> rows_;

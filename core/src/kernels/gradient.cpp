@@ -14,31 +14,32 @@ HWY_BEFORE_NAMESPACE();
 namespace thalweg {
 namespace HWY_NAMESPACE {
 
-template <class Mode>
-void gradient_by(const Tape& tape, const float* const* points, size_t count, float* value, float* const* gradient,
-                 float* scratch) {
-  using T = typename Mode::T;
-  constexpr int D = Mode::D;
-  const Machine<T> m = machine_for<Mode>(tape, scratch);
-  const size_t lanes = lanes_of<T>();
-  for (size_t i = 0; i < count; i += lanes) {
+/// The points from `first` on in chunks of W vectors, and the last, partial one in fewer where they hold it.
+template <template <class, int> class Mode, int W, int D>
+void gradients_from(size_t first, const Tape& tape, const float* const* points, size_t count, float* value,
+                    float* const* gradient, float* scratch) {
+  using T = Pack<W>;
+  const Machine<T> m = machine_for<Mode<T, D>>(tape, scratch);
+  const size_t lanes = lanes_of<T>(), fewer = W == 1 ? 0 : lanes / 2;
+  for (; first + fewer < count; first += lanes) {
     for (int axis = 0; axis < D; ++axis)
-      store(Make<T>::load(points[axis] + i), m.positions + static_cast<size_t>(axis) * lanes);
-    Field<T, D> f = divided(run(Mode{}, m));
+      store(Make<T>::load(points[axis] + first), m.positions + static_cast<size_t>(axis) * lanes);
+    Field<T, D> f = divided(run(Mode<T, D>{}, m));
     if (tape.has_formulas) f.gradient = finite_or_zero(f.gradient);
-    if (value != nullptr) store(f.value, value + i);
-    store(f.gradient.x, gradient[0] + i);
-    store(f.gradient.y, gradient[1] + i);
-    if constexpr (D == 3) store(f.gradient.z, gradient[2] + i);
+    if (value != nullptr) store(f.value, value + first);
+    store(f.gradient.x, gradient[0] + first);
+    store(f.gradient.y, gradient[1] + first);
+    if constexpr (D == 3) store(f.gradient.z, gradient[2] + first);
   }
+  if constexpr (W > 1) gradients_from<Mode, W / 2, D>(first, tape, points, count, value, gradient, scratch);
 }
 
 template <int D>
 void gradient_of(const Tape& tape, const float* const* points, size_t count, float* value, float* const* gradient,
                  float* scratch) {
-  using T = Pack<kPlainGradientWidth>;
-  const auto by_mode = tape.only_scalars ? gradient_by<ScalarGradientMode<T, D>> : gradient_by<GradientMode<T, D>>;
-  by_mode(tape, points, count, value, gradient, scratch);
+  const auto by_mode = tape.only_scalars ? gradients_from<ScalarGradientMode, kPlainGradientWidth, D>
+                                         : gradients_from<GradientMode, kPlainGradientWidth, D>;
+  by_mode(0, tape, points, count, value, gradient, scratch);
 }
 
 void gradient_kernel(const Tape& tape, const float* const* points, size_t count, float* value, float* const* gradient,

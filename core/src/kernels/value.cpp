@@ -20,23 +20,32 @@ HWY_INLINE void take_points(const float* const* points, size_t first, float* pos
     store(Make<T>::load(points[axis] + first), position + static_cast<size_t>(axis) * lanes_of<T>());
 }
 
+/// The points from `first` on in chunks of W vectors, and the last, partial one in fewer where they hold it.
+template <int W, int D>
+void values_from(size_t first, const Tape& tape, const float* const* points, size_t count, float* value,
+                 float* scratch) {
+  using T = Pack<W>;
+  const Machine<T> m = machine_for<ValueMode<T, D>>(tape, scratch);
+  const size_t fewer = W == 1 ? 0 : lanes_of<T>() / 2;
+  for (; first + fewer < count; first += lanes_of<T>()) {
+    take_points<T, D>(points, first, m.positions);
+    store(run(ValueMode<T, D>{}, m).value, value + first);
+  }
+  if constexpr (W > 1) values_from<W / 2, D>(first, tape, points, count, value, scratch);
+}
+
 template <int D>
 void value_of(const Tape& tape, const float* const* points, size_t count, float* value, float* scratch) {
-  size_t i = 0;
+  size_t first = 0;
   if (tape.only_scalars) {
     using T = ScalarChunk;
     const Machine<T> m = machine_for<ValueMode<T, D>>(tape, scratch);
-    for (const size_t lanes = lanes_of<T>(); i + lanes <= padded(count); i += lanes) {
-      take_points<T, D>(points, i, m.positions);
-      run_scalars(m, D, value + i);
+    for (const size_t lanes = lanes_of<T>(); first + lanes <= padded(count); first += lanes) {
+      take_points<T, D>(points, first, m.positions);
+      run_scalars(m, D, value + first);
     }
   }
-  using T = Pack<kValueWidth>;
-  const Machine<T> m = machine_for<ValueMode<T, D>>(tape, scratch);
-  for (; i < count; i += lanes_of<T>()) {
-    take_points<T, D>(points, i, m.positions);
-    store(run(ValueMode<T, D>{}, m).value, value + i);
-  }
+  values_from<kValueWidth, D>(first, tape, points, count, value, scratch);
 }
 
 void value_kernel(const Tape& tape, const float* const* points, size_t count, float* value, float* scratch) {

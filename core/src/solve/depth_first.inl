@@ -6,7 +6,7 @@
 // a split here is decided within vector registers. For a deepest point a lane also probes for lower values, and asks
 // far points of the children that stay open.
 //
-// What a lane does depends on its own query alone. A query that is not decided after kMostSplits, or by float32, leaves
+// What a lane does depends on its own query alone. A query that is not decided after so many splits, or by float32, leaves
 // with its findings and its open cells, which the search goes on with in waves (certify.inl).
 // Included once per SIMD target.
 #if defined(THALWEG_SOLVE_DEPTH_FIRST_INL) == defined(HWY_TARGET_TOGGLE)
@@ -37,6 +37,9 @@ class DepthFirst {
   /// Queries in flight: a chunk of the widest value, for the probes.
   static constexpr size_t kLanes = 64;
   static constexpr uint32_t kMostSplits = kChildren == 2 ? 48 : 16;
+  /// For a verdict. The few queries that need more would hold the lanes for themselves, where a wave takes all their cells
+  /// at once (measured, growth/primitives).
+  static constexpr uint32_t kMostSplitsForVerdict = kChildren == 2 ? 5 : 16;
   static constexpr size_t kStackDepth = kMostSplits * (kChildren - 1) + 1;
   /// What a split takes, probe and far points included.
   static constexpr uint32_t kCost = 2 * kChildren + 1;
@@ -64,6 +67,7 @@ class DepthFirst {
   void run(const QueryTile& tile, const Domain& domain, QueryState& state, std::span<const uint32_t> queries,
            std::vector<WaitingCell>& waiting, float* scratch) {
     const bool deepest = tile.limits->goal == Goal::deepest;
+    most_splits_ = deepest ? kMostSplits : kMostSplitsForVerdict;
     size_t next = 0;
     open_.count = 0;
     while (next < queries.size() && open_.count < kLanes) begin(state, queries[next++], open_.count++);
@@ -76,7 +80,7 @@ class DepthFirst {
       for (size_t i = 0; i < open_.count; i += vector_lanes()) advance(state, i, deepest);
       for (size_t i = open_.count; i-- > 0;) {
         ++splits_[i];
-        if (ends_[i] == 0 && splits_[i] < kMostSplits) continue;
+        if (ends_[i] == 0 && splits_[i] < most_splits_) continue;
         leave(state, i, waiting);
         if (next < queries.size()) {
           begin(state, queries[next++], i);
@@ -271,7 +275,7 @@ class DepthFirst {
       state.converged[q] = 1;
       return;
     }
-    WaitingCell cell{q, kMostSplits, 0, {}};
+    WaitingCell cell{q, most_splits_, 0, {}};
     for (size_t level = 0; level < static_cast<size_t>(depth_[lane]); ++level) {
       for (size_t k = 0; k < kCoordinates; ++k) cell.at[k] = stack_[k][level * kLanes + lane];
       waiting.push_back(cell);
@@ -283,6 +287,7 @@ class DepthFirst {
   WaveColumns wave_;
   Probes<Domain> probes_;
   FarPoints<Domain>* far_points_ = nullptr;
+  uint32_t most_splits_ = kMostSplits;
   CellList open_;  ///< the cells that are split next, one a lane
   float* value_ = nullptr;
   float* lower_ = nullptr;          ///< least bound over the closed cells
