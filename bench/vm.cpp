@@ -47,17 +47,12 @@ std::optional<Tape> load_model(const NativeModel& model, std::string& error) {
   return std::move(tape).value();
 }
 
-/// Points as both contenders want them.
+/// Points, which both contenders read row by row, and their answers.
 struct Columns {
-  std::vector<float> rows, coordinates[3], value, native_value;
-  const float* points[3] = {};
+  std::vector<float> rows, value, native_value;
 
-  Columns(const std::vector<float>& all, std::size_t d) : rows(all), value(all.size() / d), native_value(value.size()) {
-    for (std::size_t axis = 0; axis < d; ++axis) {
-      for (std::size_t i = axis; i < rows.size(); i += d) coordinates[axis].push_back(rows[i]);
-      points[axis] = coordinates[axis].data();
-    }
-  }
+  Columns(const std::vector<float>& all, std::size_t d)
+      : rows(all), value(all.size() / d), native_value(value.size()) {}
   [[nodiscard]] std::size_t count() const { return value.size(); }
 
   void evaluate_whole_tape(const Tape& tape) {
@@ -66,7 +61,7 @@ struct Columns {
       evaluate(tape, &rows[i * d], std::min(step, count() - i), &value[i], nullptr, kOneThread);
     }
   }
-  void evaluate_native(const NativeModel& model) { model.value(points, count(), native_value.data()); }
+  void evaluate_native(const NativeModel& model) { model.value(rows.data(), count(), native_value.data()); }
 };
 
 std::vector<float> points_in_cube(std::size_t count, std::size_t d) {

@@ -157,7 +157,7 @@ def main():
         model = Model(path)
         text += Code(name, model).text()
         dimension = 3 if ("var-z",) in model.steps else 2
-        rows += f'      {{"{path.stem}", "{path.as_posix()}", {dimension}, {len(model.steps)}, native::value<native::{name}>}},\n'
+        rows += f'      {{"{path.stem}", "{path.as_posix()}", {dimension}, {len(model.steps)}, native::value<native::{name}, {dimension}>}},\n'
     output.write_text(text + TAIL % rows)
     return 0
 

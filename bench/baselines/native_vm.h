@@ -16,8 +16,8 @@ struct NativeModel {
   std::string_view path;
   int dimension = 2;
   std::size_t steps = 0;  ///< constants and coordinates included
-  /// f at `count` points, a column for each coordinate.
-  void (*value)(const float* const* points, std::size_t count, float* value) = nullptr;
+  /// f at `count` points of `dimension` numbers each.
+  void (*value)(const float* points, std::size_t count, float* value) = nullptr;
 };
 
 [[nodiscard]] std::span<const NativeModel> native_models();

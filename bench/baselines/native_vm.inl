@@ -56,34 +56,32 @@ HWY_INLINE Vector atan2(Vector y, Vector x) {
   return hn::CopySign(hn::IfThenElse(hn::Lt(x, hn::Zero(tag)), sub(pi, octant), octant), y);
 }
 
-/// Runs a model over columns.
-template <class Model>
-void value(const float* const* points, size_t count, float* out) {
+template <class Model, int D>
+HWY_INLINE Vector value_turn(const float* points, float* kept) {
+  const Tag tag;
+  Vector x, y, z = hn::Zero(tag);
+  if constexpr (D == 2) {
+    hn::LoadInterleaved2(tag, points, x, y);
+  } else {
+    hn::LoadInterleaved3(tag, points, x, y, z);
+  }
+  return Model::field(x, y, z, kept);
+}
+
+/// Runs a model over points as callers have them, row by row.
+template <class Model, int D>
+void value(const float* points, size_t count, float* out) {
   const Tag tag;
   const size_t width = hn::Lanes(tag);
   HWY_ALIGN float kept[Model::kKept * hn::MaxLanes(tag)];
-  HWY_ALIGN float rows[4][hn::MaxLanes(tag)] = {};
-  for (size_t i = 0; i < count; i += width) {
-    const size_t here = std::min(width, count - i);
-    Vector at[3];
-    for (size_t axis = 0; axis < 3; ++axis) {
-      if (points[axis] == nullptr) {
-        at[axis] = hn::Zero(tag);
-      } else if (here == width) {
-        at[axis] = hn::LoadU(tag, points[axis] + i);
-      } else {
-        std::copy_n(points[axis] + i, here, rows[axis]);
-        at[axis] = hn::Load(tag, rows[axis]);
-      }
-    }
-    const Vector f = Model::field(at[0], at[1], at[2], kept);
-    if (here == width) {
-      hn::StoreU(f, tag, out + i);
-    } else {
-      hn::Store(f, tag, rows[3]);
-      std::copy_n(rows[3], here, out + i);
-    }
-  }
+  size_t i = 0;
+  for (; i + width <= count; i += width) hn::StoreU(value_turn<Model, D>(points + D * i, kept), tag, out + i);
+  if (i == count) return;
+  float tail[D * hn::MaxLanes(tag)] = {};
+  HWY_ALIGN float answers[hn::MaxLanes(tag)];
+  std::copy(points + D * i, points + D * count, tail);
+  hn::Store(value_turn<Model, D>(tail, kept), tag, answers);
+  std::copy_n(answers, count - i, out + i);
 }
 
 }  // namespace
