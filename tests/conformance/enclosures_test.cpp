@@ -135,7 +135,7 @@ TEST_P(Enclosures, AreTightForACellAlongAFaceOfSomethingConvex) {
       const double m = cells.centres.magnitude(i) + cells.reach[i];
       // Beside something round the direction itself is rounded, by the slack over the distance; it turns the cell
       // and what the shape reaches along it, a few units here.
-      const double turned = (cells.reach[i] + 4) * 8 * tape->slack(m) / std::fabs(found.value[i]);
+      const double turned = (cells.reach[i] + 4) * 16 * tape->slack(m) / std::fabs(found.value[i]);
       ASSERT_GE(found.lower[i], found.value[i] - tape->search_slack(m) - turned) << describe(drawn.shape, drawn.seed);
     }
   }
