@@ -52,7 +52,8 @@ Shape formula2() {
 }
 Shape formula3() {
   return expression(
-      "max(max(abs(x / 40 - 1) - 0.8, abs(y / 30) - 1), square(x / 20) / 9 + cos(z / 9) - atan2(y / 10, z / 10 + 7))", 3);
+      "max(max(abs(x / 40 - 1) - 0.8, abs(y / 30) - 1), square(x / 20) / 9 + cos(z / 9) - atan2(y / 10, z / 10 + 7))",
+      3);
 }
 
 /// What is moved about the scene of pairs, and distances: a body of several parts, and another one with a hole.

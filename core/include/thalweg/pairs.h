@@ -34,8 +34,8 @@ struct PairOptions : CollideOptions {
   double region = 0;
 };
 
-/// The diagonal of the smaller of the two bounding boxes, 1 where neither is bounded: what lengths that are not given are
-/// parts of.
+/// The diagonal of the smaller of the two bounding boxes, 1 where neither is bounded: what lengths that are not given
+/// are parts of.
 [[nodiscard]] double pair_size(const Tape& a, const Tape& b);
 
 /// Contacts of each query in slots, deepest first; a query's slots beyond min(found, capacity) are left alone. The

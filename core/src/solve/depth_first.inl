@@ -6,9 +6,9 @@
 // a split here is decided within vector registers. For a deepest point a lane also probes for lower values, and asks
 // far points of the children that stay open.
 //
-// What a lane does depends on its own query alone. A query that is not decided after so many splits, or by float32, leaves
-// with its findings and its open cells, which the search goes on with in waves (certify.inl).
-// Included once per SIMD target.
+// What a lane does depends on its own query alone. A query that is not decided after so many splits, or by float32,
+// leaves with its findings and its open cells, which the search goes on with in waves (certify.inl). Included once per
+// SIMD target.
 #if defined(THALWEG_SOLVE_DEPTH_FIRST_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef THALWEG_SOLVE_DEPTH_FIRST_INL
 #undef THALWEG_SOLVE_DEPTH_FIRST_INL
@@ -37,8 +37,8 @@ class DepthFirst {
   /// Queries in flight: a chunk of the widest value, for the probes.
   static constexpr size_t kLanes = 64;
   static constexpr uint32_t kMostSplits = kChildren == 2 ? 48 : 16;
-  /// For a verdict. The few queries that need more would hold the lanes for themselves, where a wave takes all their cells
-  /// at once (measured, growth/primitives).
+  /// For a verdict. The few queries that need more would hold the lanes for themselves, where a wave takes all their
+  /// cells at once (measured, growth/primitives).
   static constexpr uint32_t kMostSplitsForVerdict = kChildren == 2 ? 5 : 16;
   static constexpr size_t kStackDepth = kMostSplits * (kChildren - 1) + 1;
   /// What a split takes, probe and far points included.
