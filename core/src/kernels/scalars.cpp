@@ -55,7 +55,7 @@ constexpr int forms_of() {
   }
 }
 template <int... I>
-consteval int count_leaves(std::integer_sequence<int, I...>) {
+constexpr int count_leaves(std::integer_sequence<int, I...>) {
   return (forms_of<Op<I>>() + ...);
 }
 using EachOp = std::make_integer_sequence<int, kOpCount>;
@@ -73,7 +73,7 @@ inline constexpr auto kLeaves = []<int... I>(std::integer_sequence<int, I...> al
 (EachOp());
 
 /// Where [first, last) is cut so that both sides are met equally often.
-consteval size_t cut_of(size_t first, size_t last) {
+constexpr size_t cut_of(size_t first, size_t last) {
   int all = 0;
   for (size_t i = first; i < last; ++i) all += kLeaves[i].weight;
   size_t cut = first + 1;
