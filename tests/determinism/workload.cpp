@@ -44,8 +44,7 @@ Shape scene3() {
   return body | ball | mirror(round(box(Vec3{5, 8, 5}), 2).translate(Vec3{20, -30, 0}), 0);
 }
 
-/// Choices that are sure and such that are not, functions, and a constant in every place. Without exp, which Highway's
-/// emulation of vectors, a target of clang's builds alone, rounds in another way.
+/// Choices that are sure and such that are not, functions, and a constant in every place.
 Shape formula2() {
   return expression(
       "min(max(abs(x / 300 - 2) - 1, 1.5 - y / 200), sqrt(square(x / 100 - 9) + square(y / 100 - 5)) - 2) "

@@ -135,7 +135,7 @@ THALWEG_LANE_2(operator-, a.v - b.v, hn::Sub(a.v, b.v))
 THALWEG_LANE_2(operator*, a.v* b.v, hn::Mul(a.v, b.v))
 THALWEG_LANE_2(operator/, a.v / b.v, hn::Div(a.v, b.v))
 /// min and max return the second operand when it is NaN, on every target.
-#if HWY_TARGET == HWY_SCALAR
+#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
 THALWEG_LANE_2(min, a.v < b.v ? a.v : b.v, hn::IfThenElse(hn::Lt(a.v, b.v), a.v, b.v))
 THALWEG_LANE_2(max, a.v > b.v ? a.v : b.v, hn::IfThenElse(hn::Gt(a.v, b.v), a.v, b.v))
 #else
