@@ -12,8 +12,9 @@
 namespace thalweg {
 
 struct DistanceOptions {
-  double tolerance = 0;         ///< scene units; 0: 1e-2 of the diagonal of the smaller of the two bounding boxes
-  std::uint32_t budget = 4096;  ///< evaluations of both fields per query
+  double tolerance = 0;  ///< scene units; 0: 1e-2 of the diagonal of the smaller of the two bounding boxes
+  /// Evaluations of both fields per query. A first descent, witnesses and the roots, some 300, are had in any case.
+  std::uint32_t budget = 4096;
 };
 
 /// Result columns, N rows each; a null column is not written. Points and normals are (N,d) in C order.
