@@ -13,11 +13,10 @@
 #include <fmt/format.h>
 
 #include "collide_result.h"
-#include "input.h"
 #include "npz.h"
 #include "output.h"
+#include "pair_input.h"
 #include "progress.h"
-#include "queries.h"
 #include "report.h"
 
 namespace thalweg::cli {
@@ -161,29 +160,16 @@ Run run_batch(const PairRequest& request, const PairQueries& queries, const Coll
 
 ExitCode run_collide_pairs(const PairRequest& request, const Globals& globals) {
   check_result_name(request.output, 2);
-  const Scene first = read_scene(request.scene);
-  const Scene second = read_scene(request.with);
-  if (first.dimension != second.dimension) {
-    refuse(input_name(request.with), "/dimension", fmt::format("{}, as in {}", first.dimension, request.scene),
-           fmt::format("{}", second.dimension));
-  }
-  const Tape a = unwrap(compile(first.shape), input_name(request.scene), "/shape");
-  const Tape b = unwrap(compile(second.shape), input_name(request.with), "/shape");
-  const Array poses = read_poses(request.poses, first.dimension);
+  const PairInput input(request.scene, request.with, request.poses);
   Output output(request.output);
-  const std::array<const Tape*, 2> shapes = {&a, &b};
-  PairQueries queries;
-  queries.shapes = shapes.data();
-  queries.shape_count = shapes.size();
-  queries.poses = poses.values.data();
-  queries.count = poses.shape[0];
-  CollideResult result(QueryKind::circles, queries.count, first.dimension);
-  const auto d = static_cast<std::size_t>(first.dimension);
+  const PairQueries queries = input.queries();
+  CollideResult result(QueryKind::circles, queries.count, input.a.dimension);
+  const auto d = static_cast<std::size_t>(input.a.dimension);
   ContactResult contacts(queries.count, request.wants_contacts ? request.contacts : 0, d);
   PathResult paths(request.options, request.wants_paths ? queries.count : 0, d);
   Run run = run_batch(request, queries, result.columns(), request.wants_contacts ? contacts.slots() : PairContacts{},
                       globals, request.wants_paths ? paths.slots() : PairPaths{});
-  const double size = pair_size(a, b);
+  const double size = pair_size(input.a, input.b);
   run.tolerance = request.options.tolerance > 0 ? request.options.tolerance : 1e-4 * size;
   run.region = request.options.region > 0 ? request.options.region : size / 32;
   std::vector<Column> columns = result.list();

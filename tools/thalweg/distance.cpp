@@ -11,12 +11,11 @@
 #include <fmt/format.h>
 
 #include "command.h"
-#include "input.h"
 #include "npz.h"
 #include "options.h"
 #include "output.h"
+#include "pair_input.h"
 #include "progress.h"
-#include "queries.h"
 #include "report.h"
 
 namespace thalweg::cli {
@@ -112,25 +111,12 @@ Run measure(const Request& request, const PairQueries& queries, Measured& result
 
 ExitCode run_distance(const Request& request, const Globals& globals) {
   check_result_name(request.output, 2);
-  const Scene first = read_scene(request.scene);
-  const Scene second = read_scene(request.with);
-  if (first.dimension != second.dimension) {
-    refuse(input_name(request.with), "/dimension", fmt::format("{}, as in {}", first.dimension, request.scene),
-           fmt::format("{}", second.dimension));
-  }
-  const Tape a = unwrap(compile(first.shape), input_name(request.scene), "/shape");
-  const Tape b = unwrap(compile(second.shape), input_name(request.with), "/shape");
-  const Array poses = read_poses(request.poses, first.dimension);
+  const PairInput input(request.scene, request.with, request.poses);
   Output output(request.output);
-  const std::array<const Tape*, 2> shapes = {&a, &b};
-  PairQueries queries;
-  queries.shapes = shapes.data();
-  queries.shape_count = shapes.size();
-  queries.poses = poses.values.data();
-  queries.count = poses.shape[0];
-  Measured result(queries.count, static_cast<std::size_t>(first.dimension));
+  const PairQueries queries = input.queries();
+  Measured result(queries.count, static_cast<std::size_t>(input.a.dimension));
   Run run = measure(request, queries, result, globals);
-  run.tolerance = request.options.tolerance > 0 ? request.options.tolerance : 1e-2 * pair_size(a, b);
+  run.tolerance = request.options.tolerance > 0 ? request.options.tolerance : 1e-2 * pair_size(input.a, input.b);
   write_columns(output, request.output, result.list());
   output.commit();
   print_report(globals, output.is_stdout(), report_json(request, globals, run), report_text(request, globals, run));
