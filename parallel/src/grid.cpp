@@ -279,7 +279,7 @@ class GridTask {
     } else if (is_decided(tile.lower, tile.upper)) {
       fill(box, tile.lower > 0);
     } else {
-      own.tile_tape.instructions.assign(tile.program.begin(), tile.program.end());
+      own.tile_tape.shorten_to(tile.program);
       answer_sub_tiles(Cut(box, levels_.sub_tile), own);
     }
     if (execution_.done != nullptr) execution_.done->fetch_add(box.count(), std::memory_order_relaxed);

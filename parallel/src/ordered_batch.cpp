@@ -251,7 +251,7 @@ void OrderedBatch::solve(std::size_t task_index, std::size_t index, Answer& answ
   const Run task = memory_->tasks[first_ + task_index];
   const auto& program = memory_->programs[task_index];
   if (own.tapes.empty()) own.tapes.push_back(std::make_unique<Tape>(tape_));
-  own.tapes[0]->instructions.assign(program.begin(), program.end());
+  own.tapes[0]->shorten_to(program);
   own.arena.reset();
   gather(task, own);
   solve_run(task, task, *own.tapes[0], 0, index, answer);

@@ -44,8 +44,22 @@ struct Instruction {
   static constexpr std::uint8_t kWarped = 16;   ///< a primitive at a position other than the query point
   static constexpr std::uint8_t kSupport = 32;  ///< convex primitive with a support function, reached rigidly
   static constexpr std::uint8_t kDepth = 64;    ///< primitive of exact inside, reached rigidly
+
+  // Of scalar instructions in a value program.
+  static constexpr std::uint8_t kAffineFirst = 8;   ///< register[first] is taken as w r + c: the third, fourth constant
+  static constexpr std::uint8_t kAffineOther = 16;  ///< register[operand] is: the first, second
+  static constexpr std::uint8_t kSquaredFirst = 32;  ///< and then as its square
+  static constexpr std::uint8_t kSquaredOther = 64;
 };
 static_assert(sizeof(Instruction) == 16);
+
+/// What scalar tapes run for values alone: the same bits by fewer instructions (compile/fuse.cpp). Registers 0 to d - 1
+/// are the coordinates of the query point. Empty where there is none.
+struct ValueProgram {
+  std::vector<Instruction> instructions;
+  std::vector<float> constants;
+  int register_count = 0;
+};
 
 /// a + b * m, where m is the largest coordinate magnitude of a query's region, in scene units.
 struct Affine {
@@ -67,9 +81,16 @@ struct Tape {
   bool has_formulas = false;  ///< there are scalar instructions: only intervals prove anything
   bool only_scalars = false;  ///< every instruction is scalar, a load or a keep
   bool has_support = false;   ///< some primitive has a support function, so enclosures beat f - L r
+  ValueProgram values;
 
   /// The program, one instruction a line.
   [[nodiscard]] std::string disassembly() const;
+
+  /// Takes a program that was shortened from its own.
+  void shorten_to(std::span<const Instruction> program) {
+    instructions.assign(program.begin(), program.end());
+    values.instructions.clear();
+  }
 };
 
 /// Compiles a shape: shares equal nodes, folds placements into primitives, orders operands, allocates registers.

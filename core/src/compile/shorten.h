@@ -50,10 +50,7 @@ class Shortener {
     return {stream.instructions, stream.size};
   }
   /// The same as the program of `to`, which began as a copy of the full tape.
-  void shorten(std::size_t region, Tape& to) const {
-    const auto instructions = program(region);
-    to.instructions.assign(instructions.begin(), instructions.end());
-  }
+  void shorten(std::size_t region, Tape& to) const { to.shorten_to(program(region)); }
 
  private:
   /// A program while it is written.

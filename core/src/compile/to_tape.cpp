@@ -19,6 +19,12 @@ using Free = std::priority_queue<std::uint16_t, std::vector<std::uint16_t>, std:
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
+/// A coordinate that is in its register from the start.
+bool is_given(const Ssa& ssa, int value) {
+  static const int kCoordinate = ops::find_function("coordinate");
+  return ssa.has_points_in_registers && ssa.values[at(value)].op == kCoordinate;
+}
+
 /// Values in the order in which they are computed.
 std::vector<int> computed_order(const Ssa& ssa) {
   // Operands have lower indices, so one pass gives the registers that each value needs.
@@ -33,6 +39,7 @@ std::vector<int> computed_order(const Ssa& ssa) {
   }
   std::vector<int> order;
   std::vector<char> done(ssa.values.size(), 0);
+  for (std::size_t i = 0; i < ssa.values.size(); ++i) done[i] = is_given(ssa, static_cast<int>(i)) ? 1 : 0;
   std::vector<int> open = {ssa.root};
   while (!open.empty()) {
     const int next = open.back();
@@ -81,12 +88,21 @@ class Slots {
 
 class Writer {
  public:
-  explicit Writer(const Ssa& ssa) : ssa_(ssa), order_(computed_order(ssa)) {}
+  explicit Writer(const Ssa& ssa) : ssa_(ssa), order_(computed_order(ssa)) {
+    if (ssa.has_points_in_registers) registers_ = Slots(static_cast<std::uint16_t>(ssa.dimension));
+  }
+
+  ValueProgram run_values() {
+    write_all();
+    if (registers_.overflowed()) return {};
+    return {.instructions = std::move(tape_.instructions),
+            .constants = {tape_.constants64.begin(), tape_.constants64.end()},
+            .register_count = registers_.count()};
+  }
 
   Result<Tape> run(const Facts& facts) {
-    find_last_uses();
     tape_.only_scalars = true;
-    for (std::size_t step = 0; step < order_.size(); ++step) write(step);
+    write_all();
     if (registers_.overflowed() || positions_.overflowed()) {
       return Error{.file = "", .place = "/shape", .expected = "fewer values alive at once", .found = "too many"};
     }
@@ -101,6 +117,11 @@ class Writer {
   }
 
  private:
+  void write_all() {
+    find_last_uses();
+    for (std::size_t step = 0; step < order_.size(); ++step) write(step);
+  }
+
   void set_slack(const Affine& error) {
     // Half as much again for the arithmetic of bounds, and 16 eps L m for the rounding of centres and reaches.
     const auto for_search = [&](double lipschitz) {
@@ -148,16 +169,25 @@ class Writer {
     }
     register_of_.assign(ssa_.values.size(), Instruction::kNone);
     position_slot_.assign(ssa_.positions.size(), Instruction::kNone);
-    position_slot_[0] = 0;
+    if (!ssa_.has_points_in_registers) position_slot_[0] = 0;
+    for (std::size_t i = 0; i < ssa_.values.size(); ++i) {
+      if (!is_given(ssa_, static_cast<int>(i))) continue;
+      register_of_[i] = static_cast<std::uint16_t>(ssa_.values[i].position);
+      last_use_[i] = order_.size();
+    }
+  }
+
+  /// Whether the value that was computed last can be an operand as it is.
+  static bool takes_accumulator(const Value& v, int last) {
+    return (v.a == last && (v.flags & Instruction::kAffineFirst) == 0) ||
+           (v.b == last && (v.flags & Instruction::kAffineOther) == 0);
   }
 
   /// A value needs a register unless its one use is the next step, which finds it in the accumulator.
   [[nodiscard]] bool needs_register(std::size_t step) const {
     const int value = order_[step];
     if (step + 1 == order_.size()) return false;
-    const Value& next = ssa_.values[at(order_[step + 1])];
-    const bool next_takes_it = next.a == value || next.b == value;
-    return !(next_takes_it && uses_left_[at(value)] == 1);
+    return uses_left_[at(value)] != 1 || !takes_accumulator(ssa_.values[at(order_[step + 1])], value);
   }
 
   void write(std::size_t step) {
@@ -173,9 +203,11 @@ class Writer {
       instruction.operand = slot_of(v.position);
       instruction.flags = v.flags;
       tape_.has_support = tape_.has_support || (v.flags & Instruction::kSupport) != 0;
-    } else if (v.b < 0) {
+    } else if (v.b < 0 || (v.flags & Instruction::kAffineOther) != 0) {
       instruction.flags = v.flags;
-      if (v.a >= 0 && previous != v.a) load(v.a, is_scalar, instruction);
+      const bool is_read = (v.flags & Instruction::kAffineFirst) != 0;
+      if (v.a >= 0 && (is_read || previous != v.a)) load(v.a, is_scalar, instruction);
+      if (v.b >= 0) instruction.operand = register_of_[at(v.b)];
     } else {
       if (previous != v.a && previous != v.b) load(v.b, is_scalar, instruction);
       // With both in registers b was just loaded; with a in the accumulator the operator is written swapped. So is
@@ -252,6 +284,8 @@ class Writer {
 
 Result<Tape> to_tape(const Ssa& ssa, const Facts& facts) { return Writer(ssa).run(facts); }
 
+ValueProgram to_value_program(const Ssa& fused) { return Writer(fused).run_values(); }
+
 }  // namespace thalweg::compiler
 
 namespace thalweg {
@@ -259,7 +293,11 @@ namespace thalweg {
 Result<Tape> compile(const Shape& shape) {
   auto ssa = compiler::to_ssa(shape);
   if (!ssa) return ssa.error();
-  return compiler::to_tape(*ssa, shape.facts());
+  auto made = compiler::to_tape(*ssa, shape.facts());
+  if (!made || !made->only_scalars) return made;
+  Tape tape = std::move(made).value();
+  if (const auto fused = compiler::fuse(*ssa)) tape.values = compiler::to_value_program(*fused);
+  return tape;
 }
 
 }  // namespace thalweg

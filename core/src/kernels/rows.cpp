@@ -34,7 +34,8 @@ struct RowColumns {
   size_t count;
   float* value;
   float* gradient;
-  bool has_formulas;  ///< which may be undefined at good points
+  bool has_formulas;                ///< which may be undefined at good points
+  bool without_minus_zero = false;  ///< of the coordinates
   size_t bad_rows = 0;
 
   /// Stores the chunk of points from row `first` on at a machine's position 0. Whether all can be answered.
@@ -42,6 +43,7 @@ struct RowColumns {
     Point<T, D> p = load_rows<T, D>(points + first * D, count - first);
     const bool all_good = all_answerable(p);
     if (HWY_UNLIKELY(!all_good)) p = select(is_answerable(p), p, splat<T, D>(zero<T>()));
+    if (without_minus_zero) p = p + splat<T, D>(zero<T>());
     store_point(p, position);
     return all_good;
   }
@@ -86,12 +88,15 @@ size_t values_of(const Tape& tape, const float* points, size_t count, float* val
   size_t i = 0, bad_rows = 0;
   if (tape.only_scalars) {
     // What one chunk of fewer lanes can take is left to it.
-    RowColumns<ScalarChunk, D> rows{points, count, value, nullptr, true};
-    const ScalarMachine m = machine_for<ValueMode<ScalarChunk, D>>(tape, scratch);
-    HWY_ALIGN float f[kMostChunkLanes];
-    for (; i + lanes_of<T>() < count; i += lanes_of<ScalarChunk>()) {
+    RowColumns<ScalarChunk, D> rows{points, count, value, nullptr, true, has_value_program(tape)};
+    const ScalarMachine m = value_machine(tape, scratch);
+    const size_t lanes = lanes_of<ScalarChunk>();
+    HWY_ALIGN float memory[kMostChunkLanes];
+    for (; i + lanes_of<T>() < count; i += lanes) {
       const bool all_good = rows.take(i, m.positions);
-      run_scalars(m, D, f);
+      const bool goes_out = value != nullptr && i + lanes <= count;
+      float* const f = goes_out ? value + i : memory;
+      if (HWY_LIKELY(run_scalars(m, D, f) && all_good && goes_out)) continue;
       rows.give(i, all_good, Make<ScalarChunk>::load(f));
     }
     bad_rows = rows.bad_rows;

@@ -14,6 +14,7 @@
 
 #include <array>
 
+#include "kernels/rows.inl"
 #include "kernels/scalars.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -21,12 +22,33 @@ namespace thalweg {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// How many ways there are to write an instruction: where its operands come from, and their order.
-constexpr int kForms = 8;
-constexpr int kFormFlags = Instruction::kLoads | Instruction::kSwapped | Instruction::kImmediate;
-static_assert(kFormFlags == kForms - 1);
+/// The ways to write an instruction: where its operands come from, and their order.
+constexpr int kForms = 128;
+constexpr bool has(int form, std::uint8_t flag) { return (form & flag) != 0; }
 
-HWY_INLINE int form_of(const Instruction& in) { return in.op * kForms + (in.flags & kFormFlags); }
+HWY_INLINE int form_of(const Instruction& in) { return in.op * kForms + (in.flags & (kForms - 1)); }
+
+/// Whether instructions of this op may be written so. What is affine is a register's; squares are of what is affine.
+template <class Declared>
+constexpr bool is_form(int form) {
+  if (Declared::kDeclaration.kind != OpKind::scalar) return false;
+  const bool loads = has(form, Instruction::kLoads), affine_first = has(form, Instruction::kAffineFirst);
+  const bool affine_other = has(form, Instruction::kAffineOther);
+  const bool squares = has(form, Instruction::kSquaredFirst | Instruction::kSquaredOther);
+  if (affine_first && !loads) return false;
+  if (affine_other && has(form, Instruction::kImmediate)) return false;
+  if (has(form, Instruction::kSquaredFirst) && !affine_first) return false;
+  if (has(form, Instruction::kSquaredOther) && !affine_other) return false;
+  if constexpr (Declared::kDeclaration.kind == OpKind::scalar) {
+    if (Declared::kOperands == 0 && form != 0) return false;
+    if (Declared::kOperands == 1 && (form & ~(Instruction::kLoads | Instruction::kAffineFirst)) != 0) return false;
+    if ((affine_first || affine_other) && !Declared::kIsBrief) return false;
+    if (squares && !Declared::kTakesSquares) return false;
+    // What commutes is written swapped.
+    if (requires { Declared::kCommutes; } && !has(form, Instruction::kSwapped)) return false;
+  }
+  return true;
+}
 
 /// What instructions jump to, in order of number.
 struct Leaf {
@@ -34,37 +56,26 @@ struct Leaf {
   int weight = 0;  ///< how often, roughly
 };
 template <class Declared>
-constexpr int weight_of(int form) {
-  if constexpr (Declared::kDeclaration.kind != OpKind::scalar) {
-    return 0;
-  } else if (Declared::kOperands == 0 || Declared::kCallsFunction) {
-    return 1;
-  } else {
-    // What commutes is written swapped.
-    const bool is_rare = requires { Declared::kCommutes; }
-    &&(form & Instruction::kSwapped) == 0;
-    return is_rare ? 1 : 16;
-  }
-}
-template <class Declared>
-constexpr int forms_of() {
+constexpr int weight_of() {
   if constexpr (Declared::kDeclaration.kind != OpKind::scalar) {
     return 0;
   } else {
-    return Declared::kOperands == 0 ? 1 : Declared::kOperands == 1 ? Instruction::kLoads + 1 : kForms;
+    return Declared::kOperands == 0 || Declared::kCallsFunction ? 1 : 16;
   }
 }
 template <int... I>
-constexpr int count_leaves(std::integer_sequence<int, I...>) {
-  return (forms_of<Op<I>>() + ...);
+constexpr size_t count_leaves(std::integer_sequence<int, I...>) {
+  size_t count = 0;
+  for (int form = 0; form < kForms; ++form) count += (size_t{is_form<Op<I>>(form)} + ...);
+  return count;
 }
 using EachOp = std::make_integer_sequence<int, kOpCount>;
 inline constexpr auto kLeaves = []<int... I>(std::integer_sequence<int, I...> all) {
-  std::array<Leaf, static_cast<size_t>(count_leaves(all))> leaves{};
+  std::array<Leaf, count_leaves(all)> leaves{};
   size_t made = 0;
   const auto add = [&]<int Number>() {
-    for (int form = 0; form < forms_of<Op<Number>>(); ++form) {
-      leaves[made++] = {Number * kForms + form, weight_of<Op<Number>>(form)};
+    for (int form = 0; form < kForms; ++form) {
+      if (is_form<Op<Number>>(form)) leaves[made++] = {Number * kForms + form, weight_of<Op<Number>>()};
     }
   };
   (add.template operator()<I>(), ...);
@@ -100,26 +111,26 @@ struct Memory {
   int dimension;
 };
 
-/// The operand that is not the accumulator, `lane` lanes into the chunk.
-template <class T>
-HWY_INLINE T other_operand(Memory m, const Instruction& in, bool is_immediate, size_t lane) {
-  if (is_immediate) return Make<T>::set(m.pool[in.constants]);
-  return Make<T>::load(m.registers + in.operand * lanes_of<ScalarChunk>() + lane);
+/// w r + c of a register for the constants at `c`, or its square; a vector, `lane` lanes into the chunk.
+HWY_INLINE Pack<1> affine(const float* r, const float* c, bool is_squared) {
+  const auto a = mul_add(Make<Pack<1>>::set(c[0]), Make<Pack<1>>::load(r), Make<Pack<1>>::set(c[1]));
+  return is_squared ? a * a : a;
 }
-
-/// An op that calls a function, vector by vector: calls would push a chunk out of its registers.
-template <class Declared>
-HWY_NOINLINE void call_by_vectors(Memory m, const Instruction& in, float* acc) {
-  for (size_t i = 0; i < lanes_of<ScalarChunk>(); i += lanes_of<Pack<1>>()) {
-    const auto a = Make<Pack<1>>::load(acc + i);
-    if constexpr (Declared::kOperands == 1) {
-      store(applied<Declared>(a), acc + i);
-    } else {
-      const auto b = other_operand<Pack<1>>(m, in, (in.flags & Instruction::kImmediate) != 0, i);
-      const bool swapped = (in.flags & Instruction::kSwapped) != 0;
-      store(swapped ? applied<Declared>(a, b) : applied<Declared>(b, a), acc + i);
-    }
-  }
+/// What takes the accumulator's place, or that.
+template <int kForm>
+HWY_INLINE Pack<1> first_operand(Memory m, const Instruction& in, Pack<1> acc, size_t lane) {
+  if constexpr (!has(kForm, Instruction::kLoads)) return acc;
+  const float* const r = m.registers + in.first * lanes_of<ScalarChunk>() + lane;
+  if constexpr (!has(kForm, Instruction::kAffineFirst)) return Make<Pack<1>>::load(r);
+  return affine(r, m.pool + in.constants + 2, has(kForm, Instruction::kSquaredFirst));
+}
+template <int kForm>
+HWY_INLINE Pack<1> other_operand(Memory m, const Instruction& in, size_t lane) {
+  const float* const c = m.pool + in.constants;
+  if constexpr (has(kForm, Instruction::kImmediate)) return Make<Pack<1>>::set(c[0]);
+  const float* const r = m.registers + in.operand * lanes_of<ScalarChunk>() + lane;
+  if constexpr (!has(kForm, Instruction::kAffineOther)) return Make<Pack<1>>::load(r);
+  return affine(r, c, has(kForm, Instruction::kSquaredOther));
 }
 
 template <class Declared>
@@ -131,23 +142,42 @@ HWY_INLINE ScalarChunk leaf_of(Memory m, const Instruction& in) {
                           : Declared::leaf(load_point<ScalarChunk, 3>(at), c).value;
 }
 
+/// Vector after vector, so that operands stay in the machine's registers where it has few.
+template <class Declared, int kForm>
+HWY_INLINE Pack<1> result(Memory m, const Instruction& in, Pack<1> acc, size_t lane) {
+  const auto first = first_operand<kForm>(m, in, acc, lane);
+  if constexpr (Declared::kOperands == 1) {
+    return applied<Declared>(first);
+  } else {
+    const auto other = other_operand<kForm>(m, in, lane);
+    return has(kForm, Instruction::kSwapped) ? applied<Declared>(first, other) : applied<Declared>(other, first);
+  }
+}
+template <class Declared, int kForm, int W>
+HWY_INLINE Pack<W> result(Memory m, const Instruction& in, Pack<W> acc, size_t lane) {
+  return {result<Declared, kForm>(m, in, acc.lo, lane),
+          result<Declared, kForm>(m, in, acc.hi, lane + lanes_of<Pack<W / 2>>())};
+}
+
+/// An op that calls a function, which would push a chunk out of its registers.
+template <class Declared, int kForm>
+HWY_NOINLINE void call_by_vectors(Memory m, const Instruction& in, float* acc) {
+  for (size_t lane = 0; lane < lanes_of<ScalarChunk>(); lane += lanes_of<Pack<1>>()) {
+    store(result<Declared, kForm>(m, in, Make<Pack<1>>::load(acc + lane), lane), acc + lane);
+  }
+}
+
 template <class Declared, int kForm>
 HWY_INLINE void execute(Memory m, const Instruction& in, ScalarChunk& acc) {
-  if constexpr ((kForm & Instruction::kLoads) != 0) {
-    acc = Make<ScalarChunk>::load(m.registers + in.first * lanes_of<ScalarChunk>());
-  }
   if constexpr (Declared::kOperands == 0) {
     acc = leaf_of<Declared>(m, in);
   } else if constexpr (Declared::kCallsFunction) {
     HWY_ALIGN float memory[kMostChunkLanes];
     store(acc, memory);
-    call_by_vectors<Declared>(m, in, memory);
+    call_by_vectors<Declared, kForm>(m, in, memory);
     acc = Make<ScalarChunk>::load(memory);
-  } else if constexpr (Declared::kOperands == 1) {
-    acc = applied<Declared>(acc);
   } else {
-    const auto other = other_operand<ScalarChunk>(m, in, (kForm & Instruction::kImmediate) != 0, 0);
-    acc = (kForm & Instruction::kSwapped) != 0 ? applied<Declared>(acc, other) : applied<Declared>(other, acc);
+    acc = result<Declared, kForm>(m, in, acc, 0);
   }
 }
 
@@ -169,7 +199,18 @@ HWY_INLINE void find_and_execute(int form, Memory m, const Instruction& in, Scal
 
 }  // namespace
 
-void run_scalars(const ScalarMachine& machine, int dimension, float* value) {
+ScalarMachine value_machine(const Tape& tape, float* scratch) {
+  ScalarMachine m = tape.dimension == 2 ? machine_for<ValueMode<ScalarChunk, 2>>(tape, scratch)
+                                        : machine_for<ValueMode<ScalarChunk, 3>>(tape, scratch);
+  if (!has_value_program(tape)) return m;
+  m.instructions = tape.values.instructions.data();
+  m.instruction_count = tape.values.instructions.size();
+  m.pool = tape.values.constants.data();
+  m.registers = m.positions;
+  return m;
+}
+
+bool run_scalars(const ScalarMachine& machine, int dimension, float* value) {
   ScalarChunk acc{};
   const size_t lanes = lanes_of<ScalarChunk>();
   const Memory m{machine.registers, machine.positions, machine.pool, dimension};
@@ -183,6 +224,7 @@ void run_scalars(const ScalarMachine& machine, int dimension, float* value) {
     if (in->target != Instruction::kNone) store(acc, m.registers + in->target * lanes);
   }
   store(acc, value);
+  return all_numbers(acc);
 }
 
 }  // namespace HWY_NAMESPACE

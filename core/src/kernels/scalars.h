@@ -19,8 +19,13 @@ namespace HWY_NAMESPACE {
 using ScalarChunk = Pack<kScalarWidth>;
 using ScalarMachine = Machine<ScalarChunk>;
 
-/// Runs the tape over one chunk whose points are at position 0.
-void run_scalars(const ScalarMachine& m, int dimension, float* value);
+/// Whether the machine for values runs a program of its own, whose coordinates must not be -0: in the tape they are
+/// sums.
+HWY_INLINE bool has_value_program(const Tape& tape) { return !tape.values.instructions.empty(); }
+ScalarMachine value_machine(const Tape& tape, float* scratch);
+
+/// Runs it over one chunk whose points are at position 0. Whether all values are numbers: if not told so, ask each.
+bool run_scalars(const ScalarMachine& m, int dimension, float* value);
 
 /// The machine's mode for f and its gradient: unlike fields, formulas leave nothing to divide.
 template <class T_, int D_>

@@ -61,6 +61,8 @@ void fill_scalar(Entry& entry) {
   entry.opcode = Op::kDeclaration.opcode;
   entry.operands = Op::kOperands;
   entry.commutes = requires { Op::kCommutes; };
+  entry.is_brief = Op::kIsBrief;
+  entry.takes_squares = Op::kTakesSquares;
   entry.internal = Op::kOperands == 0 || requires { Op::kInternal; };
   if constexpr (requires { Op::kSelection; }) {
     entry.selects = true;

@@ -50,6 +50,8 @@ struct Entry {
   int operands = 0;
   bool selects = false;  ///< returns one of its operands, by `selection`
   bool commutes = false;
+  bool is_brief = false;                           ///< instructions of value programs take operands in every form
+  bool takes_squares = false;                      ///< and their squares
   bool internal = false;                           ///< not part of the language
   double (*evaluate)(double, double) = nullptr;    ///< on numbers; the second one is ignored where there is none
   Range64 (*enclose)(Range64, Range64) = nullptr;  ///< rounded outward; NaN where it may be undefined

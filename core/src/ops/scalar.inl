@@ -11,12 +11,21 @@
 struct Scalar {
   static constexpr std::array<OpParameter, 0> kParameters{};
   static constexpr bool kCallsFunction = false;
+  static constexpr bool kIsBrief = false;
+  static constexpr bool kTakesSquares = false;
 };
 struct Unary : Scalar {
   static constexpr int kOperands = 1;
 };
 struct Binary : Scalar {
   static constexpr int kOperands = 2;
+};
+/// A few machine operations, so that it matters how the operands come: they do in every way (compile/fuse.cpp).
+struct BriefUnary : Unary {
+  static constexpr bool kIsBrief = true;
+};
+struct BriefBinary : Binary {
+  static constexpr bool kIsBrief = true;
 };
 
 consteval Declaration scalar(std::string_view name, std::string_view opcode, std::string_view meaning, double ulps) {
@@ -110,7 +119,7 @@ THALWEG_OP : Unary {
   }
 };
 
-THALWEG_OP : Unary {
+THALWEG_OP : BriefUnary {
   static constexpr Declaration kDeclaration = scalar("abs", "abs", "magnitude", 0);
   template <class T, int D>
   static HWY_INLINE Field<T, D> apply(const Field<T, D>& a) {
@@ -122,7 +131,7 @@ THALWEG_OP : Unary {
   }
 };
 
-THALWEG_OP : Unary {
+THALWEG_OP : BriefUnary {
   static constexpr Declaration kDeclaration = scalar("sqrt", "sqrt", "square root; not defined below 0", 0.5);
   template <class T, int D>
   static HWY_INLINE Field<T, D> apply(const Field<T, D>& a) {
@@ -136,7 +145,7 @@ THALWEG_OP : Unary {
   }
 };
 
-THALWEG_OP : Unary {
+THALWEG_OP : BriefUnary {
   static constexpr Declaration kDeclaration = scalar("square", "square", "a a", 0.5);
   template <class T, int D>
   static HWY_INLINE Field<T, D> apply(const Field<T, D>& a) {
@@ -181,8 +190,9 @@ THALWEG_OP : Unary {
   }
 };
 
-THALWEG_OP : Binary {
+THALWEG_OP : BriefBinary {
   static constexpr Declaration kDeclaration = scalar("add", "add", "a + b", 0.5);
+  static constexpr bool kTakesSquares = true;  // of lengths
   static constexpr bool kCommutes = true;
   template <class T, int D>
   static HWY_INLINE Field<T, D> apply(const Field<T, D>& a, const Field<T, D>& b) {
@@ -194,7 +204,7 @@ THALWEG_OP : Binary {
   }
 };
 
-THALWEG_OP : Binary {
+THALWEG_OP : BriefBinary {
   static constexpr Declaration kDeclaration = scalar("sub", "sub", "a - b", 0.5);
   template <class T, int D>
   static HWY_INLINE Field<T, D> apply(const Field<T, D>& a, const Field<T, D>& b) {
@@ -206,7 +216,7 @@ THALWEG_OP : Binary {
   }
 };
 
-THALWEG_OP : Binary {
+THALWEG_OP : BriefBinary {
   static constexpr Declaration kDeclaration = scalar("mul", "mul", "a b", 0.5);
   static constexpr bool kCommutes = true;
   template <class T, int D>
@@ -234,7 +244,7 @@ THALWEG_OP : Binary {
 };
 
 /// At a tie the first operand gives the gradient.
-THALWEG_OP : Binary {
+THALWEG_OP : BriefBinary {
   static constexpr Declaration kDeclaration = scalar("min", "min", "the lesser", 0);
   static constexpr Selection kSelection = Selection::least;
   template <class T, int D>
@@ -247,7 +257,7 @@ THALWEG_OP : Binary {
   }
 };
 
-THALWEG_OP : Binary {
+THALWEG_OP : BriefBinary {
   static constexpr Declaration kDeclaration = scalar("max", "max", "the greater", 0);
   static constexpr Selection kSelection = Selection::greatest;
   template <class T, int D>
@@ -262,7 +272,7 @@ THALWEG_OP : Binary {
 
 /// min and max of operands that are numbers wherever a query may be: nothing need be asked of them. Written by the
 /// compiler alone.
-THALWEG_OP : Binary {
+THALWEG_OP : BriefBinary {
   static constexpr Declaration kDeclaration = scalar("least", "", "the lesser of two numbers", 0);
   static constexpr Selection kSelection = Selection::least;
   static constexpr bool kCommutes = true;
@@ -277,7 +287,7 @@ THALWEG_OP : Binary {
   }
 };
 
-THALWEG_OP : Binary {
+THALWEG_OP : BriefBinary {
   static constexpr Declaration kDeclaration = scalar("greatest", "", "the greater of two numbers", 0);
   static constexpr Selection kSelection = Selection::greatest;
   static constexpr bool kCommutes = true;
