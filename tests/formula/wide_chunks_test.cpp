@@ -5,6 +5,7 @@
 // tape has. Random programs use every op with operands from everywhere.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <string>
 
@@ -41,6 +42,31 @@ TEST(WideChunks, HaveTheBitsOfPointsAlone) {
             << target.name << ", seed " << seed << ", row " << i << ": " << together[i] << " and " << alone[i] << "\n"
             << text;
       }
+    }
+  }
+}
+
+/// Instructions that move points are not scalar: no wide chunk can take them.
+TEST(WideChunks, AreNotAskedOfWarpedFormulas) {
+  const auto scene = parse_scene(R"({"thalweg": 1, "dimension": 2, "shape": {"op": "mirror", "axis": "x",
+                                     "of": {"op": "expression", "text": "x + 2 * y"}}})",
+                                 "warped.json");
+  ASSERT_TRUE(scene) << to_string(scene.error());
+  const Tape tape = *compile(scene->shape);
+  EXPECT_FALSE(tape.only_scalars);
+  Column points, value(kMany), gradient(2 * kMany);
+  for (std::size_t i = 0; i < kMany; ++i) {
+    points.insert(points.end(), {static_cast<float>(i) - 99.5F, 0.25F * static_cast<float>(i)});
+  }
+  for (const Target& target : targets()) {
+    const Execution execution{.threads = 1, .target = &target};
+    evaluate(tape, points.data(), kMany, value.data(), nullptr, execution);
+    for (std::size_t i = 0; i < kMany; ++i) ASSERT_EQ(value[i], std::abs(points[2 * i]) + 2 * points[2 * i + 1]) << i;
+    evaluate(tape, points.data(), kMany, value.data(), gradient.data(), execution);
+    for (std::size_t i = 0; i < kMany; ++i) {
+      ASSERT_EQ(value[i], std::abs(points[2 * i]) + 2 * points[2 * i + 1]) << i;
+      ASSERT_EQ(gradient[2 * i], points[2 * i] < 0 ? -1 : 1) << i;
+      ASSERT_EQ(gradient[2 * i + 1], 2) << i;
     }
   }
 }

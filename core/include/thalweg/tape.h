@@ -46,10 +46,12 @@ struct Instruction {
   static constexpr std::uint8_t kDepth = 64;    ///< primitive of exact inside, reached rigidly
 
   // Of scalar instructions in a value program.
-  static constexpr std::uint8_t kAffineFirst = 8;   ///< register[first] is taken as w r + c: the third, fourth constant
-  static constexpr std::uint8_t kAffineOther = 16;  ///< register[operand] is: the first, second
+  static constexpr std::uint8_t kAffineFirst = 8;    ///< register[first] counts as w r + c: the third, fourth constant
+  static constexpr std::uint8_t kAffineOther = 16;   ///< register[operand] does: the first, second
   static constexpr std::uint8_t kSquaredFirst = 32;  ///< and then as its square
   static constexpr std::uint8_t kSquaredOther = 64;
+  static constexpr std::uint8_t kChangesFirst = kAffineFirst | kSquaredFirst;
+  static constexpr std::uint8_t kChangesOther = kAffineOther | kSquaredOther;
 };
 static_assert(sizeof(Instruction) == 16);
 

@@ -15,7 +15,8 @@ std::string constants_text(const Tape& tape, const Instruction& in) {
   static constexpr std::uint32_t kShown = 8;
   // Of a formula's constant the value; its bounds follow.
   const ops::Entry* const op = in.op < Instruction::kKeep ? &ops::registry()[in.op] : nullptr;
-  const bool is_constant = op != nullptr && op->row.kind == OpKind::scalar && op->row.name != "coordinate";
+  const bool is_constant =
+      op != nullptr && op->row.kind == OpKind::scalar && (op->operands > 0 || op->row.name == "constant");
   const std::uint32_t count = is_constant ? std::min(in.constant_count, 1U) : in.constant_count;
   std::string text;
   for (std::uint32_t i = 0; i < count && i < kShown; ++i) {

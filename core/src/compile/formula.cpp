@@ -135,6 +135,7 @@ class Lowering {
 
   /// q = R^T (p - t) / s, one row of it.
   int coordinate(const formula::Step& step) {
+    if (is_identity(place_.at) && place_.position == 0) return add({.op = ops::axis_op(step.axis), .position = 0});
     const auto d = index(place_.dimension);
     const Similarity& at = place_.at;
     std::vector<double> row;

@@ -17,18 +17,18 @@ const ops::Entry& entry_of(int op) { return ops::registry()[at(op)]; }
 struct KnownOps {
   int add = ops::find_function("add"), sub = ops::find_function("sub"), mul = ops::find_function("mul");
   int neg = ops::find_function("neg"), square = ops::find_function("square");
-  int coordinate = ops::find_function("coordinate");
 };
 const KnownOps& known() {
   static const KnownOps ops;
   return ops;
 }
 
-/// w r + c for the value r, or its square.
+/// A value r as it is, as w r + c, or as the square of either.
 struct Taken {
   int value = -1;
   double w = 1, c = -0.0;
   bool is_affine = false, is_squared = false;
+  [[nodiscard]] bool is_changed() const { return is_affine || is_squared; }
 };
 
 /// What the value is of another one by a constant.
@@ -43,27 +43,14 @@ std::optional<Taken> affine_of(const Value& v) {
   return (v.flags & Instruction::kSwapped) != 0 ? of(1, -constant) : of(-1, constant);
 }
 
-/// The axis of a coordinate of the query point itself; -1 for those of placed formulas.
-int axis_of(const Value& coordinate, int dimension) {
-  int axis = -1;
-  if (coordinate.position != 0) return -1;
-  for (int i = 0; i <= dimension; ++i) {
-    const double weight = coordinate.constants[at(i)];
-    if (weight == 0 && !std::signbit(weight)) continue;
-    if (weight != 1 || axis >= 0 || i == dimension) return -1;
-    axis = i;
-  }
-  return axis;
-}
-
 class Fusion {
  public:
   explicit Fusion(const Ssa& from) : from_(from), of_(from.values.size()) {}
 
-  std::optional<Ssa> run() {
+  Ssa run() {
     to_.dimension = from_.dimension;
+    to_.positions = from_.positions;
     to_.has_points_in_registers = true;
-    if (is_coordinate(from_.root)) return std::nullopt;
     find_uses();
     // Users come after what they use.
     for (int i = from_.root; i >= 0; --i) {
@@ -73,7 +60,6 @@ class Fusion {
       if (of_[at(i)].uses == 0 || of_[at(i)].left_out) continue;
       of_[at(i)].made = static_cast<int>(to_.values.size());
       to_.values.push_back(fused(from_.values[at(i)]));
-      if (is_coordinate(i) && to_.values.back().position < 0) return std::nullopt;
     }
     to_.root = of_[at(from_.root)].made;
     return std::move(to_);
@@ -90,7 +76,7 @@ class Fusion {
   };
 
   [[nodiscard]] const Value& value(int i) const { return from_.values[at(i)]; }
-  [[nodiscard]] bool is_coordinate(int i) const { return value(i).op == known().coordinate; }
+  [[nodiscard]] bool is_coordinate(int i) const { return entry_of(value(i).op).axis >= 0; }
   /// Whether it lies in a register whatever becomes of its users.
   [[nodiscard]] bool is_kept(int i) const { return is_coordinate(i) || of_[at(i)].uses > 1; }
 
@@ -136,39 +122,36 @@ class Fusion {
       return affine;
     }
     Taken square = taken(v.a);
-    square.is_affine = square.is_squared = true;
+    square.is_squared = true;
     return square;
   }
 
   [[nodiscard]] Value fused(const Value& v) const {
-    Value made{.op = v.op};
-    if (v.op == known().coordinate) {
-      made.position = axis_of(v, from_.dimension);
-    } else if (v.b >= 0) {
+    Value made{.op = v.op, .position = v.position, .flags = v.flags};
+    if (v.b >= 0) {
       fuse_binary(v, made);
     } else {
-      made.flags = v.flags;
-      if (!v.constants.empty()) made.constants = {v.constants[0]};
+      made.constants = v.constants;
       if (v.a >= 0) take_first(taken(v.a), made);
     }
     return made;
   }
 
-  /// Of one affine operand it is the other that is in the accumulator.
+  /// Where one operand is taken as it is, that one is in the accumulator.
   void fuse_binary(const Value& v, Value& made) const {
     Taken first = taken(v.a), other = taken(v.b);
-    if (!first.is_affine && !other.is_affine) {
+    if (!first.is_changed() && !other.is_changed()) {
       made.a = first.value;
       made.b = other.value;
       return;
     }
     made.flags = Instruction::kSwapped;
-    if (first.is_affine && !other.is_affine) {
+    if (first.is_changed() && !other.is_changed()) {
       std::swap(first, other);
       if (!entry_of(v.op).commutes) made.flags = 0;
     }
     made.b = other.value;
-    made.flags |= Instruction::kAffineOther;
+    if (other.is_affine) made.flags |= Instruction::kAffineOther;
     if (other.is_squared) made.flags |= Instruction::kSquaredOther;
     made.constants = {other.w, other.c};
     take_first(first, made);
@@ -176,8 +159,8 @@ class Fusion {
 
   static void take_first(const Taken& first, Value& made) {
     made.a = first.value;
-    if (!first.is_affine) return;
-    made.flags |= Instruction::kAffineFirst;
+    if (!first.is_changed()) return;
+    if (first.is_affine) made.flags |= Instruction::kAffineFirst;
     if (first.is_squared) made.flags |= Instruction::kSquaredFirst;
     made.constants.resize(2);
     made.constants.insert(made.constants.end(), {first.w, first.c});
@@ -190,6 +173,6 @@ class Fusion {
 
 }  // namespace
 
-std::optional<Ssa> fuse(const Ssa& ssa) { return Fusion(ssa).run(); }
+Ssa fuse(const Ssa& ssa) { return Fusion(ssa).run(); }
 
 }  // namespace thalweg::compiler

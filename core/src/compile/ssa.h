@@ -5,7 +5,6 @@
 // they have been composed and folded into the primitives' constants or into the positions that primitives read.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "ops/registry.h"
@@ -41,7 +40,7 @@ struct Ssa {
   std::vector<Position> positions;
   std::vector<Value> values;
   int root = -1;
-  bool has_points_in_registers = false;  ///< the coordinate with `position` i is register i: a value program
+  bool has_points_in_registers = false;  ///< a value program: the query point's coordinates are registers 0 to d - 1
 };
 
 /// At most this many operations; a scene that needs more is refused.
@@ -52,8 +51,8 @@ inline constexpr std::size_t kMostValues = 250'000;
 /// Orders the operations, allocates registers and writes the tape.
 [[nodiscard]] Result<Tape> to_tape(const Ssa& ssa, const Facts& facts);
 
-/// The values of scalar operations alone, with fewer of them; nothing where the formula is placed.
-[[nodiscard]] std::optional<Ssa> fuse(const Ssa& ssa);
+/// The same values by fewer operations, all scalar and at the query point.
+[[nodiscard]] Ssa fuse(const Ssa& ssa);
 /// The program of what `fuse` returns; empty if it needs too many registers.
 [[nodiscard]] ValueProgram to_value_program(const Ssa& fused);
 

@@ -19,10 +19,9 @@ using Free = std::priority_queue<std::uint16_t, std::vector<std::uint16_t>, std:
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-/// A coordinate that is in its register from the start.
-bool is_given(const Ssa& ssa, int value) {
-  static const int kCoordinate = ops::find_function("coordinate");
-  return ssa.has_points_in_registers && ssa.values[at(value)].op == kCoordinate;
+/// Whether it is a coordinate that lies in a register from the start.
+bool is_given(const Ssa& ssa, std::size_t value) {
+  return ssa.has_points_in_registers && ops::registry()[at(ssa.values[value].op)].axis >= 0;
 }
 
 /// Values in the order in which they are computed.
@@ -39,7 +38,7 @@ std::vector<int> computed_order(const Ssa& ssa) {
   }
   std::vector<int> order;
   std::vector<char> done(ssa.values.size(), 0);
-  for (std::size_t i = 0; i < ssa.values.size(); ++i) done[i] = is_given(ssa, static_cast<int>(i)) ? 1 : 0;
+  for (std::size_t i = 0; i < ssa.values.size(); ++i) done[i] = is_given(ssa, i) ? 1 : 0;
   std::vector<int> open = {ssa.root};
   while (!open.empty()) {
     const int next = open.back();
@@ -169,18 +168,18 @@ class Writer {
     }
     register_of_.assign(ssa_.values.size(), Instruction::kNone);
     position_slot_.assign(ssa_.positions.size(), Instruction::kNone);
-    if (!ssa_.has_points_in_registers) position_slot_[0] = 0;
+    position_slot_[0] = 0;
     for (std::size_t i = 0; i < ssa_.values.size(); ++i) {
-      if (!is_given(ssa_, static_cast<int>(i))) continue;
-      register_of_[i] = static_cast<std::uint16_t>(ssa_.values[i].position);
+      if (!is_given(ssa_, i)) continue;
+      register_of_[i] = static_cast<std::uint16_t>(ops::registry()[at(ssa_.values[i].op)].axis);
       last_use_[i] = order_.size();
     }
   }
 
   /// Whether the value that was computed last can be an operand as it is.
   static bool takes_accumulator(const Value& v, int last) {
-    return (v.a == last && (v.flags & Instruction::kAffineFirst) == 0) ||
-           (v.b == last && (v.flags & Instruction::kAffineOther) == 0);
+    return (v.a == last && (v.flags & Instruction::kChangesFirst) == 0) ||
+           (v.b == last && (v.flags & Instruction::kChangesOther) == 0);
   }
 
   /// A value needs a register unless its one use is the next step, which finds it in the accumulator.
@@ -203,9 +202,9 @@ class Writer {
       instruction.operand = slot_of(v.position);
       instruction.flags = v.flags;
       tape_.has_support = tape_.has_support || (v.flags & Instruction::kSupport) != 0;
-    } else if (v.b < 0 || (v.flags & Instruction::kAffineOther) != 0) {
+    } else if (v.b < 0 || (v.flags & Instruction::kChangesOther) != 0) {
       instruction.flags = v.flags;
-      const bool is_read = (v.flags & Instruction::kAffineFirst) != 0;
+      const bool is_read = (v.flags & Instruction::kChangesFirst) != 0;
       if (v.a >= 0 && (is_read || previous != v.a)) load(v.a, is_scalar, instruction);
       if (v.b >= 0) instruction.operand = register_of_[at(v.b)];
     } else {
@@ -257,6 +256,7 @@ class Writer {
       instruction.target = position_slot_[at(*p)] = positions_.take();
       store_constants(made.constants, instruction);
       tape_.instructions.push_back(instruction);
+      tape_.only_scalars = false;
     }
     return position_slot_[at(position)];
   }
@@ -296,7 +296,7 @@ Result<Tape> compile(const Shape& shape) {
   auto made = compiler::to_tape(*ssa, shape.facts());
   if (!made || !made->only_scalars) return made;
   Tape tape = std::move(made).value();
-  if (const auto fused = compiler::fuse(*ssa)) tape.values = compiler::to_value_program(*fused);
+  tape.values = compiler::to_value_program(compiler::fuse(*ssa));
   return tape;
 }
 

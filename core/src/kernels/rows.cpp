@@ -34,8 +34,7 @@ struct RowColumns {
   size_t count;
   float* value;
   float* gradient;
-  bool has_formulas;                ///< which may be undefined at good points
-  bool without_minus_zero = false;  ///< of the coordinates
+  bool has_formulas;  ///< which may be undefined at good points
   size_t bad_rows = 0;
 
   /// Stores the chunk of points from row `first` on at a machine's position 0. Whether all can be answered.
@@ -43,7 +42,6 @@ struct RowColumns {
     Point<T, D> p = load_rows<T, D>(points + first * D, count - first);
     const bool all_good = all_answerable(p);
     if (HWY_UNLIKELY(!all_good)) p = select(is_answerable(p), p, splat<T, D>(zero<T>()));
-    if (without_minus_zero) p = p + splat<T, D>(zero<T>());
     store_point(p, position);
     return all_good;
   }
@@ -88,7 +86,7 @@ size_t values_of(const Tape& tape, const float* points, size_t count, float* val
   size_t i = 0, bad_rows = 0;
   if (tape.only_scalars) {
     // What one chunk of fewer lanes can take is left to it.
-    RowColumns<ScalarChunk, D> rows{points, count, value, nullptr, true, has_value_program(tape)};
+    RowColumns<ScalarChunk, D> rows{points, count, value, nullptr, true};
     const ScalarMachine m = value_machine(tape, scratch);
     const size_t lanes = lanes_of<ScalarChunk>();
     HWY_ALIGN float memory[kMostChunkLanes];

@@ -69,13 +69,20 @@ template <int W>
 HWY_INLINE V32 sum_of_vectors(Pack<W> a) {
   return hn::Add(sum_of_vectors(a.lo), sum_of_vectors(a.hi));
 }
+/// `sum` and the squares of the vectors.
+HWY_INLINE V32 add_squares(Pack<1> a, V32 sum) { return hn::MulAdd(a.v, a.v, sum); }
+template <int W>
+HWY_INLINE V32 add_squares(Pack<W> a, V32 sum) {
+  return add_squares(a.hi, add_squares(a.lo, sum));
+}
 /// Whether every point of a chunk is answerable, told from a sum of squares that NaN and infinity spoil; a chunk with
 /// points further than kLargestCoordinate from the origin may not be told.
 template <class T, int D>
 HWY_INLINE bool all_answerable(Point<T, D> p) {
   const F32 d;
-  const auto most = hn::Set(d, kLargestCoordinate * kLargestCoordinate);
-  return hn::AllTrue(d, hn::Le(sum_of_vectors(dot(p, p)), most));
+  V32 squares = hn::Add(add_squares(p.x, hn::Zero(d)), add_squares(p.y, hn::Zero(d)));
+  if constexpr (D == 3) squares = hn::Add(squares, add_squares(p.z, hn::Zero(d)));
+  return hn::AllTrue(d, hn::Le(squares, hn::Set(d, kLargestCoordinate * kLargestCoordinate)));
 }
 /// Told from a sum that NaN spoils; infinities of both signs may spoil it too.
 template <class T>

@@ -28,26 +28,24 @@ constexpr bool has(int form, std::uint8_t flag) { return (form & flag) != 0; }
 
 HWY_INLINE int form_of(const Instruction& in) { return in.op * kForms + (in.flags & (kForms - 1)); }
 
-/// Whether instructions of this op may be written so. What is affine is a register's; squares are of what is affine.
+/// Whether instructions of this op may be written so: registers alone are changed, and for brief ops.
 template <class Declared>
 constexpr bool is_form(int form) {
-  if (Declared::kDeclaration.kind != OpKind::scalar) return false;
-  const bool loads = has(form, Instruction::kLoads), affine_first = has(form, Instruction::kAffineFirst);
-  const bool affine_other = has(form, Instruction::kAffineOther);
-  const bool squares = has(form, Instruction::kSquaredFirst | Instruction::kSquaredOther);
-  if (affine_first && !loads) return false;
-  if (affine_other && has(form, Instruction::kImmediate)) return false;
-  if (has(form, Instruction::kSquaredFirst) && !affine_first) return false;
-  if (has(form, Instruction::kSquaredOther) && !affine_other) return false;
-  if constexpr (Declared::kDeclaration.kind == OpKind::scalar) {
-    if (Declared::kOperands == 0 && form != 0) return false;
-    if (Declared::kOperands == 1 && (form & ~(Instruction::kLoads | Instruction::kAffineFirst)) != 0) return false;
-    if ((affine_first || affine_other) && !Declared::kIsBrief) return false;
+  if constexpr (Declared::kDeclaration.kind != OpKind::scalar) {
+    return false;
+  } else {
+    const bool changes_first = has(form, Instruction::kChangesFirst),
+               changes_other = has(form, Instruction::kChangesOther);
+    const bool squares = has(form, Instruction::kSquaredFirst | Instruction::kSquaredOther);
+    if (Declared::kOperands == 0) return form == 0;
+    if (Declared::kOperands == 1 && (form & ~(Instruction::kLoads | Instruction::kChangesFirst)) != 0) return false;
+    if (changes_first && !has(form, Instruction::kLoads)) return false;
+    if (changes_other && has(form, Instruction::kImmediate)) return false;
+    if ((changes_first || changes_other) && !Declared::kIsBrief) return false;
     if (squares && !Declared::kTakesSquares) return false;
     // What commutes is written swapped.
-    if (requires { Declared::kCommutes; } && !has(form, Instruction::kSwapped)) return false;
+    return has(form, Instruction::kSwapped) || !requires { Declared::kCommutes; };
   }
-  return true;
 }
 
 /// What instructions jump to, in order of number.
@@ -111,35 +109,37 @@ struct Memory {
   int dimension;
 };
 
-/// w r + c of a register for the constants at `c`, or its square; a vector, `lane` lanes into the chunk.
-HWY_INLINE Pack<1> affine(const float* r, const float* c, bool is_squared) {
-  const auto a = mul_add(Make<Pack<1>>::set(c[0]), Make<Pack<1>>::load(r), Make<Pack<1>>::set(c[1]));
-  return is_squared ? a * a : a;
+/// A register as an instruction of that form takes it; a vector. `c` has w and c.
+template <bool kAffine, bool kSquared>
+HWY_INLINE Pack<1> taken(const float* r, const float* c) {
+  auto a = Make<Pack<1>>::load(r);
+  if constexpr (kAffine) a = mul_add(Make<Pack<1>>::set(c[0]), a, Make<Pack<1>>::set(c[1]));
+  if constexpr (kSquared) a = a * a;
+  return a;
 }
-/// What takes the accumulator's place, or that.
+/// The accumulator, or what is read in its place.
 template <int kForm>
 HWY_INLINE Pack<1> first_operand(Memory m, const Instruction& in, Pack<1> acc, size_t lane) {
   if constexpr (!has(kForm, Instruction::kLoads)) return acc;
   const float* const r = m.registers + in.first * lanes_of<ScalarChunk>() + lane;
-  if constexpr (!has(kForm, Instruction::kAffineFirst)) return Make<Pack<1>>::load(r);
-  return affine(r, m.pool + in.constants + 2, has(kForm, Instruction::kSquaredFirst));
+  return taken<has(kForm, Instruction::kAffineFirst), has(kForm, Instruction::kSquaredFirst)>(
+      r, m.pool + in.constants + 2);
 }
 template <int kForm>
 HWY_INLINE Pack<1> other_operand(Memory m, const Instruction& in, size_t lane) {
   const float* const c = m.pool + in.constants;
   if constexpr (has(kForm, Instruction::kImmediate)) return Make<Pack<1>>::set(c[0]);
   const float* const r = m.registers + in.operand * lanes_of<ScalarChunk>() + lane;
-  if constexpr (!has(kForm, Instruction::kAffineOther)) return Make<Pack<1>>::load(r);
-  return affine(r, c, has(kForm, Instruction::kSquaredOther));
+  return taken<has(kForm, Instruction::kAffineOther), has(kForm, Instruction::kSquaredOther)>(r, c);
 }
 
 template <class Declared>
 HWY_INLINE ScalarChunk leaf_of(Memory m, const Instruction& in) {
-  const auto d = static_cast<size_t>(m.dimension);
-  const auto* const at = m.positions + in.operand * d * lanes_of<ScalarChunk>();
   const Constants<ScalarChunk> c{m.pool + in.constants, in.constant_count};
-  return m.dimension == 2 ? Declared::leaf(load_point<ScalarChunk, 2>(at), c).value
-                          : Declared::leaf(load_point<ScalarChunk, 3>(at), c).value;
+  if constexpr (Declared::kDeclaration.dimension != 3) {
+    if (m.dimension == 2) return Declared::leaf(load_point<ScalarChunk, 2>(m.positions), c).value;
+  }
+  return Declared::leaf(load_point<ScalarChunk, 3>(m.positions), c).value;
 }
 
 /// Vector after vector, so that operands stay in the machine's registers where it has few.
@@ -202,7 +202,7 @@ HWY_INLINE void find_and_execute(int form, Memory m, const Instruction& in, Scal
 ScalarMachine value_machine(const Tape& tape, float* scratch) {
   ScalarMachine m = tape.dimension == 2 ? machine_for<ValueMode<ScalarChunk, 2>>(tape, scratch)
                                         : machine_for<ValueMode<ScalarChunk, 3>>(tape, scratch);
-  if (!has_value_program(tape)) return m;
+  if (tape.values.instructions.empty()) return m;
   m.instructions = tape.values.instructions.data();
   m.instruction_count = tape.values.instructions.size();
   m.pool = tape.values.constants.data();

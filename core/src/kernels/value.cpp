@@ -15,13 +15,9 @@ namespace thalweg {
 namespace HWY_NAMESPACE {
 
 template <class T, int D>
-HWY_INLINE void take_points(const float* const* points, size_t first, float* position,
-                            bool without_minus_zero = false) {
-  for (int axis = 0; axis < D; ++axis) {
-    T x = Make<T>::load(points[axis] + first);
-    if (without_minus_zero) x = x + zero<T>();
-    store(x, position + static_cast<size_t>(axis) * lanes_of<T>());
-  }
+HWY_INLINE void take_points(const float* const* points, size_t first, float* position) {
+  for (int axis = 0; axis < D; ++axis)
+    store(Make<T>::load(points[axis] + first), position + static_cast<size_t>(axis) * lanes_of<T>());
 }
 
 /// The points from `first` on in chunks of W vectors, and the last, partial one in fewer where they hold it.
@@ -44,7 +40,7 @@ void value_of(const Tape& tape, const float* const* points, size_t count, float*
   if (tape.only_scalars) {
     const ScalarMachine m = value_machine(tape, scratch);
     for (const size_t lanes = lanes_of<ScalarChunk>(); first + lanes <= padded(count); first += lanes) {
-      take_points<ScalarChunk, D>(points, first, m.positions, has_value_program(tape));
+      take_points<ScalarChunk, D>(points, first, m.positions);
       run_scalars(m, D, value + first);
     }
   }

@@ -60,6 +60,7 @@ void fill_scalar(Entry& entry) {
   using HWY_NAMESPACE::Real;
   entry.opcode = Op::kDeclaration.opcode;
   entry.operands = Op::kOperands;
+  if constexpr (requires { Op::kOfAxis; }) entry.axis = Op::kOfAxis;
   entry.commutes = requires { Op::kCommutes; };
   entry.is_brief = Op::kIsBrief;
   entry.takes_squares = Op::kTakesSquares;
@@ -151,6 +152,11 @@ int find_opcode(std::string_view opcode) {
   const auto fits = [&](const Entry& entry) { return !opcode.empty() && entry.opcode == opcode; };
   const auto found = std::ranges::find_if(registry(), fits);
   return found == registry().end() ? -1 : static_cast<int>(found - registry().begin());
+}
+
+int axis_op(int axis) {
+  static const int found[] = {find_function("x"), find_function("y"), find_function("z")};
+  return found[axis];
 }
 
 int rigid_op(int dimension) {

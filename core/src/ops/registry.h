@@ -48,6 +48,7 @@ struct Entry {
   // Scalar ops.
   std::string_view opcode;  ///< in `.vm` programs
   int operands = 0;
+  int axis = -1;         ///< of the query point's coordinate
   bool selects = false;  ///< returns one of its operands, by `selection`
   bool commutes = false;
   bool is_brief = false;                           ///< instructions of value programs take operands in every form
@@ -68,6 +69,8 @@ struct Entry {
 /// The scalar op of that name, or of that opcode in `.vm` programs; -1 where there is none.
 [[nodiscard]] int find_function(std::string_view name);
 [[nodiscard]] int find_opcode(std::string_view opcode);
+/// The coordinate of the query point.
+[[nodiscard]] int axis_op(int axis);
 
 /// The op `rigid` of that dimension: the instruction for a placement that a primitive cannot absorb.
 [[nodiscard]] int rigid_op(int dimension);

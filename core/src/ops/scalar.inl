@@ -28,9 +28,11 @@ struct BriefBinary : Binary {
   static constexpr bool kIsBrief = true;
 };
 
-consteval Declaration scalar(std::string_view name, std::string_view opcode, std::string_view meaning, double ulps) {
+consteval Declaration scalar(std::string_view name, std::string_view opcode, std::string_view meaning, double ulps,
+                             int dimension = 0) {
   return {.name = name,
           .kind = OpKind::scalar,
+          .dimension = dimension,
           .exactness = "exact but for rounding",
           .note = meaning,
           .rounding = ulps,
@@ -61,10 +63,38 @@ HWY_INLINE T slope_or_zero(T a) {
   return select(abs(a) <= Make<T>::set(1e30), a, zero<T>());
 }
 
+/// A coordinate of the query point, as it is.
+template <int kAxis>
+struct Axis : Scalar {
+  static constexpr int kOperands = 0;
+  static constexpr int kOfAxis = kAxis;
+  template <class T, int D>
+  static HWY_INLINE T& component(Point<T, D>& p) {
+    static_assert(kAxis < D);
+    if constexpr (kAxis == 0) return p.x;
+    if constexpr (kAxis == 1) return p.y;
+    if constexpr (kAxis == 2) return p.z;
+  }
+  template <class T, int D>
+  static HWY_INLINE Field<T, D> leaf(Point<T, D> p, Constants<T>) {
+    Field<T, D> f = without_slope<T, D>(component(p));
+    component(f.gradient) = one<T>();
+    return f;
+  }
+  template <class T, int D>
+  static HWY_INLINE Interval<T> enclose(Point<T, D> p, const Interval<T>* offset, T place, Constants<T>) {
+    const T x = component(p);
+    return {below(x + (offset[kAxis].lo - place), kRounded), above(x + (offset[kAxis].hi + place), kRounded)};
+  }
+};
+THALWEG_OP : Axis<0> { static constexpr Declaration kDeclaration = scalar("x", "", "the first coordinate", 0); };
+THALWEG_OP : Axis<1> { static constexpr Declaration kDeclaration = scalar("y", "", "the second coordinate", 0); };
+THALWEG_OP : Axis<2> { static constexpr Declaration kDeclaration = scalar("z", "", "the third coordinate", 0, 3); };
+
 /// A row of the affine map from the position to the coordinate: weights, offset, and what its enclosure owes for the
 /// rounding of the row: `units` of the unit roundoff times the products, `owed` of it, and `places` of the place's own.
 THALWEG_OP : Scalar {
-  static constexpr Declaration kDeclaration = scalar("coordinate", "", "x, y or z", 1);
+  static constexpr Declaration kDeclaration = scalar("coordinate", "", "x, y or z of a frame", 1);
   static constexpr int kOperands = 0;
   template <class T>
   static HWY_INLINE Field<T, 2> leaf(Point<T, 2> p, Constants<T> c) {
