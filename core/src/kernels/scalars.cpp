@@ -117,21 +117,31 @@ HWY_INLINE Pack<1> taken(const float* r, const float* c) {
   if constexpr (kSquared) a = a * a;
   return a;
 }
-/// The accumulator, or what is read in its place.
-template <int kForm>
-HWY_INLINE Pack<1> first_operand(Memory m, const Instruction& in, Pack<1> acc, size_t lane) {
-  if constexpr (!has(kForm, Instruction::kLoads)) return acc;
-  const float* const r = m.registers + in.first * lanes_of<ScalarChunk>() + lane;
-  return taken<has(kForm, Instruction::kAffineFirst), has(kForm, Instruction::kSquaredFirst)>(
-      r, m.pool + in.constants + 2);
-}
-template <int kForm>
-HWY_INLINE Pack<1> other_operand(Memory m, const Instruction& in, size_t lane) {
-  const float* const c = m.pool + in.constants;
-  if constexpr (has(kForm, Instruction::kImmediate)) return Make<Pack<1>>::set(c[0]);
-  const float* const r = m.registers + in.operand * lanes_of<ScalarChunk>() + lane;
-  return taken<has(kForm, Instruction::kAffineOther), has(kForm, Instruction::kSquaredOther)>(r, c);
-}
+/// Where an instruction finds its operands, one vector of the chunk after the other.
+struct Operands {
+  const float* first;
+  const float* other;
+  const float* constants;
+
+  Operands(Memory m, const Instruction& in)
+      : first(m.registers + in.first * lanes_of<ScalarChunk>()),
+        other(m.registers + in.operand * lanes_of<ScalarChunk>()),
+        constants(m.pool + in.constants) {}
+
+  /// The accumulator, or what is read in its place.
+  template <int kForm>
+  HWY_INLINE Pack<1> first_at(size_t lane, Pack<1> acc) const {
+    if constexpr (!has(kForm, Instruction::kLoads)) return acc;
+    return taken<has(kForm, Instruction::kAffineFirst), has(kForm, Instruction::kSquaredFirst)>(first + lane,
+                                                                                                constants + 2);
+  }
+  template <int kForm>
+  HWY_INLINE Pack<1> other_at(size_t lane) const {
+    if constexpr (has(kForm, Instruction::kImmediate)) return Make<Pack<1>>::set(constants[0]);
+    return taken<has(kForm, Instruction::kAffineOther), has(kForm, Instruction::kSquaredOther)>(other + lane,
+                                                                                                constants);
+  }
+};
 
 template <class Declared>
 HWY_INLINE ScalarChunk leaf_of(Memory m, const Instruction& in) {
@@ -144,26 +154,26 @@ HWY_INLINE ScalarChunk leaf_of(Memory m, const Instruction& in) {
 
 /// Vector after vector, so that operands stay in the machine's registers where it has few.
 template <class Declared, int kForm>
-HWY_INLINE Pack<1> result(Memory m, const Instruction& in, Pack<1> acc, size_t lane) {
-  const auto first = first_operand<kForm>(m, in, acc, lane);
+HWY_INLINE Pack<1> result(Operands of, Pack<1> acc, size_t lane) {
+  const auto first = of.first_at<kForm>(lane, acc);
   if constexpr (Declared::kOperands == 1) {
     return applied<Declared>(first);
   } else {
-    const auto other = other_operand<kForm>(m, in, lane);
+    const auto other = of.other_at<kForm>(lane);
     return has(kForm, Instruction::kSwapped) ? applied<Declared>(first, other) : applied<Declared>(other, first);
   }
 }
 template <class Declared, int kForm, int W>
-HWY_INLINE Pack<W> result(Memory m, const Instruction& in, Pack<W> acc, size_t lane) {
-  return {result<Declared, kForm>(m, in, acc.lo, lane),
-          result<Declared, kForm>(m, in, acc.hi, lane + lanes_of<Pack<W / 2>>())};
+HWY_INLINE Pack<W> result(Operands of, Pack<W> acc, size_t lane) {
+  return {result<Declared, kForm>(of, acc.lo, lane),
+          result<Declared, kForm>(of, acc.hi, lane + lanes_of<Pack<W / 2>>())};
 }
 
 /// An op that calls a function, which would push a chunk out of its registers.
 template <class Declared, int kForm>
-HWY_NOINLINE void call_by_vectors(Memory m, const Instruction& in, float* acc) {
+HWY_NOINLINE void call_by_vectors(Operands of, float* acc) {
   for (size_t lane = 0; lane < lanes_of<ScalarChunk>(); lane += lanes_of<Pack<1>>()) {
-    store(result<Declared, kForm>(m, in, Make<Pack<1>>::load(acc + lane), lane), acc + lane);
+    store(result<Declared, kForm>(of, Make<Pack<1>>::load(acc + lane), lane), acc + lane);
   }
 }
 
@@ -174,10 +184,10 @@ HWY_INLINE void execute(Memory m, const Instruction& in, ScalarChunk& acc) {
   } else if constexpr (Declared::kCallsFunction) {
     HWY_ALIGN float memory[kMostChunkLanes];
     store(acc, memory);
-    call_by_vectors<Declared, kForm>(m, in, memory);
+    call_by_vectors<Declared, kForm>({m, in}, memory);
     acc = Make<ScalarChunk>::load(memory);
   } else {
-    acc = result<Declared, kForm>(m, in, acc, 0);
+    acc = result<Declared, kForm>(Operands{m, in}, acc, 0);
   }
 }
 
@@ -197,9 +207,8 @@ HWY_INLINE void find_and_execute(int form, Memory m, const Instruction& in, Scal
   }
 }
 
-}  // namespace
-
-ScalarMachine value_machine(const Tape& tape, float* scratch) {
+/// For the value program, where the tape has one.
+ScalarMachine machine_of(const Tape& tape, float* scratch) {
   ScalarMachine m = tape.dimension == 2 ? machine_for<ValueMode<ScalarChunk, 2>>(tape, scratch)
                                         : machine_for<ValueMode<ScalarChunk, 3>>(tape, scratch);
   if (tape.values.instructions.empty()) return m;
@@ -210,7 +219,8 @@ ScalarMachine value_machine(const Tape& tape, float* scratch) {
   return m;
 }
 
-bool run_scalars(const ScalarMachine& machine, int dimension, float* value) {
+/// Runs the program over one chunk whose points are at position 0.
+HWY_INLINE ScalarChunk run(const ScalarMachine& machine, int dimension) {
   ScalarChunk acc{};
   const size_t lanes = lanes_of<ScalarChunk>();
   const Memory m{machine.registers, machine.positions, machine.pool, dimension};
@@ -223,8 +233,54 @@ bool run_scalars(const ScalarMachine& machine, int dimension, float* value) {
     }
     if (in->target != Instruction::kNone) store(acc, m.registers + in->target * lanes);
   }
-  store(acc, value);
-  return all_numbers(acc);
+  return acc;
+}
+
+template <int D>
+RowColumns<ScalarChunk, D> rows_of(const ScalarBatch& batch) {
+  return {batch.rows, batch.count, batch.value, nullptr, true};
+}
+
+/// Stores the next chunk of points at a machine's position 0. Whether all can be answered.
+HWY_INLINE bool take(const ScalarBatch& batch, size_t dimension, float* position) {
+  if (batch.rows != nullptr) {
+    return dimension == 2 ? rows_of<2>(batch).take(batch.done, position) : rows_of<3>(batch).take(batch.done, position);
+  }
+  for (size_t axis = 0; axis < dimension; ++axis) {
+    store(Make<ScalarChunk>::load(batch.columns[axis] + batch.done), position + axis * lanes_of<ScalarChunk>());
+  }
+  return true;
+}
+
+/// Of a chunk that is not whole, or has rows that cannot be answered.
+template <int D>
+HWY_NOINLINE void give_some(ScalarBatch& batch, bool all_good, const float* f) {
+  auto rows = rows_of<D>(batch);
+  rows.give(batch.done, all_good, Make<ScalarChunk>::load(f));
+  batch.bad_rows += rows.bad_rows;
+}
+
+HWY_INLINE void give(ScalarBatch& batch, size_t dimension, bool all_good, ScalarChunk f) {
+  const bool is_whole = batch.value != nullptr && batch.done + lanes_of<ScalarChunk>() <= batch.count;
+  if (batch.rows == nullptr || HWY_LIKELY(is_whole && all_good && all_numbers(f))) {
+    store(f, batch.value + batch.done);
+    return;
+  }
+  HWY_ALIGN float memory[kMostChunkLanes];
+  store(f, memory);
+  dimension == 2 ? give_some<2>(batch, all_good, memory) : give_some<3>(batch, all_good, memory);
+}
+
+}  // namespace
+
+void run_scalars(const Tape& tape, ScalarBatch& batch, float* scratch) {
+  const ScalarMachine m = machine_of(tape, scratch);
+  const auto dimension = static_cast<size_t>(tape.dimension);
+  const size_t lanes = lanes_of<ScalarChunk>();
+  for (; batch.done + lanes / 2 < batch.count; batch.done += lanes) {
+    const bool all_good = take(batch, dimension, m.positions);
+    give(batch, dimension, all_good, run(m, tape.dimension));
+  }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -19,13 +19,17 @@ namespace HWY_NAMESPACE {
 using ScalarChunk = Pack<kScalarWidth>;
 using ScalarMachine = Machine<ScalarChunk>;
 
-/// Whether the machine for values runs a program of its own, whose coordinates must not be -0: in the tape they are
-/// sums.
-HWY_INLINE bool has_value_program(const Tape& tape) { return !tape.values.instructions.empty(); }
-ScalarMachine value_machine(const Tape& tape, float* scratch);
-
-/// Runs it over one chunk whose points are at position 0. Whether all values are numbers: if not told so, ask each.
-bool run_scalars(const ScalarMachine& m, int dimension, float* value);
+/// Points, by rows as callers have them or by padded columns, and where their values go.
+struct ScalarBatch {
+  const float* rows = nullptr;
+  const float* const* columns = nullptr;
+  size_t count = 0;
+  float* value = nullptr;  ///< of rows: may be null
+  size_t done = 0;         ///< points answered: chunks of few points are left to narrower ones
+  size_t bad_rows = 0;     ///< among them
+};
+/// Values by the tape's value program, where it has one.
+void run_scalars(const Tape& tape, ScalarBatch& batch, float* scratch);
 
 /// The machine's mode for f and its gradient: unlike fields, formulas leave nothing to divide.
 template <class T_, int D_>

@@ -38,11 +38,9 @@ template <int D>
 void value_of(const Tape& tape, const float* const* points, size_t count, float* value, float* scratch) {
   size_t first = 0;
   if (tape.only_scalars) {
-    const ScalarMachine m = value_machine(tape, scratch);
-    for (const size_t lanes = lanes_of<ScalarChunk>(); first + lanes <= padded(count); first += lanes) {
-      take_points<ScalarChunk, D>(points, first, m.positions);
-      run_scalars(m, D, value + first);
-    }
+    ScalarBatch batch{.columns = points, .count = count, .value = value};
+    run_scalars(tape, batch, scratch);
+    first = batch.done;
   }
   values_from<kValueWidth, D>(first, tape, points, count, value, scratch);
 }
