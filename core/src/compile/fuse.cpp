@@ -17,6 +17,7 @@ const ops::Entry& entry_of(int op) { return ops::registry()[at(op)]; }
 struct KnownOps {
   int add = ops::find_function("add"), sub = ops::find_function("sub"), mul = ops::find_function("mul");
   int neg = ops::find_function("neg"), square = ops::find_function("square");
+  int least = ops::find_function("least"), greatest = ops::find_function("greatest");
 };
 const KnownOps& known() {
   static const KnownOps ops;
@@ -43,9 +44,70 @@ std::optional<Taken> affine_of(const Value& v) {
   return (v.flags & Instruction::kSwapped) != 0 ? of(1, -constant) : of(-1, constant);
 }
 
+/// max(max(a, b), c) as max(a, max(b, c)), and min alike, where a and b are there without being computed but c is not:
+/// no intermediate result waits for c then. Ties give the same operand.
+class Postponement {
+ public:
+  explicit Postponement(const Ssa& from) : from_(from), uses_(from.values.size(), 0) {
+    for (const Value& v : from.values) {
+      for (const int operand : {v.a, v.b}) {
+        if (operand >= 0) ++uses_[at(operand)];
+      }
+    }
+  }
+
+  Ssa run() {
+    to_.dimension = from_.dimension;
+    to_.positions = from_.positions;
+    for (const Value& v : from_.values) made_.push_back(add(v));
+    to_.root = made_[at(from_.root)];
+    return std::move(to_);
+  }
+
+ private:
+  [[nodiscard]] const Value& value(int i) const { return from_.values[at(i)]; }
+  [[nodiscard]] bool is_there(int i) const {
+    if (entry_of(value(i).op).axis >= 0) return true;
+    const auto affine = affine_of(value(i));
+    return affine && (entry_of(value(affine->value).op).axis >= 0 || uses_[at(affine->value)] > 1);
+  }
+  static bool is_choice(const Value& v) { return v.b >= 0 && (v.op == known().least || v.op == known().greatest); }
+  /// Whether it is a choice by that op among what is there.
+  [[nodiscard]] bool is_among_there(int i, int op) const {
+    for (; !is_there(i); i = value(i).a) {
+      const Value& v = value(i);
+      if (v.op != op || v.b < 0 || uses_[at(i)] != 1 || !is_there(v.b)) return false;
+    }
+    return true;
+  }
+
+  int add(const Value& v) {
+    Value made = v;
+    made.a = v.a < 0 ? -1 : made_[at(v.a)];
+    made.b = v.b < 0 ? -1 : made_[at(v.b)];
+    if (is_choice(v) && !is_there(v.b) && is_among_there(v.a, v.op)) {
+      int left = v.a;
+      for (; !is_there(left); left = value(left).a) {
+        made.b = push({.op = v.op, .a = made_[at(value(left).b)], .b = made.b});
+      }
+      made.a = made_[at(left)];
+    }
+    return push(std::move(made));
+  }
+  int push(Value v) {
+    to_.values.push_back(std::move(v));
+    return static_cast<int>(to_.values.size()) - 1;
+  }
+
+  const Ssa& from_;
+  std::vector<int> uses_;
+  std::vector<int> made_;
+  Ssa to_;
+};
+
 class Fusion {
  public:
-  explicit Fusion(const Ssa& from) : from_(from), of_(from.values.size()) {}
+  explicit Fusion(Ssa from) : from_(std::move(from)), of_(from_.values.size()) {}
 
   Ssa run() {
     to_.dimension = from_.dimension;
@@ -166,13 +228,13 @@ class Fusion {
     made.constants.insert(made.constants.end(), {first.w, first.c});
   }
 
-  const Ssa& from_;
+  const Ssa from_;
   std::vector<Known> of_;
   Ssa to_;
 };
 
 }  // namespace
 
-Ssa fuse(const Ssa& ssa) { return Fusion(ssa).run(); }
+Ssa fuse(const Ssa& ssa) { return Fusion(Postponement(ssa).run()).run(); }
 
 }  // namespace thalweg::compiler

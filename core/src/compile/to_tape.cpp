@@ -45,7 +45,8 @@ std::vector<int> computed_order(const Ssa& ssa) {
     const Value& v = ssa.values[at(next)];
     int first = v.a;
     int second = v.b;
-    if (second >= 0 && need[at(second)] > need[at(first)]) std::swap(first, second);
+    const bool from_register = (v.flags & Instruction::kChangesOther) != 0;
+    if (second >= 0 && (from_register || need[at(second)] > need[at(first)])) std::swap(first, second);
     if (done[at(next)] != 0) {
       open.pop_back();
     } else if (first >= 0 && done[at(first)] == 0) {

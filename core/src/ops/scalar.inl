@@ -305,7 +305,6 @@ THALWEG_OP : BriefBinary {
 THALWEG_OP : BriefBinary {
   static constexpr Declaration kDeclaration = scalar("least", "", "the lesser of two numbers", 0);
   static constexpr Selection kSelection = Selection::least;
-  static constexpr bool kCommutes = true;
   static constexpr bool kInternal = true;
   template <class T, int D>
   static HWY_INLINE Field<T, D> apply(const Field<T, D>& a, const Field<T, D>& b) {
@@ -320,7 +319,6 @@ THALWEG_OP : BriefBinary {
 THALWEG_OP : BriefBinary {
   static constexpr Declaration kDeclaration = scalar("greatest", "", "the greater of two numbers", 0);
   static constexpr Selection kSelection = Selection::greatest;
-  static constexpr bool kCommutes = true;
   static constexpr bool kInternal = true;
   template <class T, int D>
   static HWY_INLINE Field<T, D> apply(const Field<T, D>& a, const Field<T, D>& b) {
