@@ -13,43 +13,23 @@
 #include <algorithm>
 #include <limits>
 
+#include "kernels/interleaved.inl"
 #include "kernels/interpreter.inl"
 
 HWY_BEFORE_NAMESPACE();
 namespace thalweg {
 namespace HWY_NAMESPACE {
 
-#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
-/// The first of every kStride blocks of 4 numbers. The masked loads blend, where shuffles of whole vectors would crowd
-/// the one port that has them.
-template <int kStride>
-HWY_INLINE __m512 load_blocks(const float* from) {
-  __m512 v = _mm512_castps128_ps512(_mm_loadu_ps(from));
-  v = _mm512_mask_broadcast_f32x4(v, 0x00f0, _mm_loadu_ps(from + 4 * kStride));
-  v = _mm512_mask_broadcast_f32x4(v, 0x0f00, _mm_loadu_ps(from + 8 * kStride));
-  return _mm512_mask_broadcast_f32x4(v, 0xf000, _mm_loadu_ps(from + 12 * kStride));
-}
 HWY_INLINE void load_interleaved(const float* rows, Point<Pack<1>, 2>& p) {
-  const __m512 xyxy0 = load_blocks<2>(rows), xyxy2 = load_blocks<2>(rows + 4);
-  p.x.v = V32{_mm512_shuffle_ps(xyxy0, xyxy2, _MM_SHUFFLE(2, 0, 2, 0))};
-  p.y.v = V32{_mm512_shuffle_ps(xyxy0, xyxy2, _MM_SHUFFLE(3, 1, 3, 1))};
+  V32 columns[2];
+  load_interleaved(rows, columns);
+  p = {{columns[0]}, {columns[1]}};
 }
 HWY_INLINE void load_interleaved(const float* rows, Point<Pack<1>, 3>& p) {
-  const __m512 xyzx = load_blocks<3>(rows), yzxy = load_blocks<3>(rows + 4), zxyz = load_blocks<3>(rows + 8);
-  const __m512 yz01 = _mm512_shuffle_ps(xyzx, yzxy, _MM_SHUFFLE(1, 0, 2, 1));
-  const __m512 xy23 = _mm512_shuffle_ps(yzxy, zxyz, _MM_SHUFFLE(2, 1, 3, 2));
-  p.x.v = V32{_mm512_shuffle_ps(xyzx, xy23, _MM_SHUFFLE(2, 0, 3, 0))};
-  p.y.v = V32{_mm512_shuffle_ps(yz01, xy23, _MM_SHUFFLE(3, 1, 2, 0))};
-  p.z.v = V32{_mm512_shuffle_ps(yz01, zxyz, _MM_SHUFFLE(3, 0, 3, 1))};
+  V32 columns[3];
+  load_interleaved(rows, columns);
+  p = {{columns[0]}, {columns[1]}, {columns[2]}};
 }
-#else
-HWY_INLINE void load_interleaved(const float* rows, Point<Pack<1>, 2>& p) {
-  hn::LoadInterleaved2(F32(), rows, p.x.v, p.y.v);
-}
-HWY_INLINE void load_interleaved(const float* rows, Point<Pack<1>, 3>& p) {
-  hn::LoadInterleaved3(F32(), rows, p.x.v, p.y.v, p.z.v);
-}
-#endif
 HWY_INLINE void store_interleaved(const Point<Pack<1>, 2>& p, float* rows) {
   hn::StoreInterleaved2(p.x.v, p.y.v, F32(), rows);
 }

@@ -15,7 +15,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/lanes.inl"
+#include "kernels/interleaved.inl"
 #include "solve/decide.h"
 #include "solve/finish.h"
 #include "solve/tile.h"
@@ -80,32 +80,6 @@ HWY_INLINE V32 gather(const float* column, const uint32_t* index) {
   return hn::GatherIndex(F32(), column, hn::LoadU(di, reinterpret_cast<const int32_t*>(index)));
 }
 
-/// One vector of row-major rows of `Width` numbers as columns.
-template <size_t Width>
-HWY_INLINE void transpose_rows(const float* rows, V32 (&columns)[Width]) {
-  const F32 d;
-  if constexpr (Width == 3) {
-    hn::LoadInterleaved3(d, rows, columns[0], columns[1], columns[2]);
-  } else if constexpr (Width == 4) {
-    hn::LoadInterleaved4(d, rows, columns[0], columns[1], columns[2], columns[3]);
-#if HWY_TARGET != HWY_SCALAR
-  } else if constexpr (Width == 6) {
-    // Every third number twice over: columns k and k + 3 side by side.
-    V32 low[3], high[3];
-    hn::LoadInterleaved3(d, rows, low[0], low[1], low[2]);
-    hn::LoadInterleaved3(d, rows + 3 * hn::Lanes(d), high[0], high[1], high[2]);
-    for (size_t k = 0; k < 3; ++k) {
-      columns[k] = hn::ConcatEven(d, high[k], low[k]);
-      columns[k + 3] = hn::ConcatOdd(d, high[k], low[k]);
-    }
-#endif
-  } else {
-    const IndexLanes di;
-    const auto first = hn::Mul(hn::Iota(di, 0), hn::Set(di, static_cast<int32_t>(Width)));
-    for (size_t k = 0; k < Width; ++k) columns[k] = hn::GatherIndex(d, rows + k, first);
-  }
-}
-
 /// Row-major rows of `Width` numbers to columns, with the largest magnitude of each row; rows with a number that is
 /// not finite or too large are marked and replaced by zeros.
 template <size_t Width>
@@ -122,7 +96,7 @@ HWY_INLINE void load_rows(const QueryTile& tile, float* const* columns, float* l
       rows = tail;
     }
     V32 x[Width];
-    transpose_rows(rows, x);
+    load_interleaved(rows, x);
     auto most = hn::Zero(d);
     auto good = hn::Eq(most, most);
     for (size_t k = 0; k < Width; ++k) {

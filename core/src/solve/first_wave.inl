@@ -70,7 +70,11 @@ class FirstWave {
     const auto slack_b = hn::Set(d, rounded_up(tile_.limits->slack.b));
     const auto lipschitz = hn::Set(d, static_cast<float>(tile_.tape->facts.lipschitz));
     const auto one = hn::Set(d, 1.0F);
+    const float* const next = tile_.rows + (first + kBlockRows) * Domain::kWidth;
     for (size_t i = 0; i < count; i += hn::Lanes(d)) {
+      // Into the second-level cache: the first holds this block.
+      for (size_t k = 0; k < Domain::kWidth; ++k)
+        __builtin_prefetch(next + i * Domain::kWidth + k * hn::Lanes(d), 0, 2);
       const auto slack = hn::MulAdd(slack_b, hn::LoadU(d, domain_.largest() + i), slack_a);
       const auto f = hn::LoadU(d, s.value + i);
       const auto lower = hn::Sub(hn::NegMulAdd(lipschitz, hn::LoadU(d, domain_.reach() + i), f), slack);
