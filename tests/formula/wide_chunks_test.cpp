@@ -26,13 +26,16 @@ TEST(WideChunks, HaveTheBitsOfPointsAlone) {
   for (std::size_t seed = 1; seed <= amount(60); ++seed) {
     oracle::Random random(seed);
     const int dimension = random.chance(0.5) ? 2 : 3;
-    const std::string text = oracle::random_program(random, 60, true, dimension);
+    const std::string text = oracle::random_program(random, 60, random.chance(0.5), dimension);
     const auto scene = parse_program(text, "random.vm");
     ASSERT_TRUE(scene) << to_string(scene.error());
     const Tape tape = *compile(scene->shape);
     const auto d = static_cast<std::size_t>(tape.dimension);
     Column points(kMany * d), together(kMany), alone(kMany);
-    for (float& x : points) x = static_cast<float>(random.chance(0.1) ? 0 : random.uniform(-3, 3));
+    for (float& x : points) {
+      static constexpr double kEdges[] = {0, -0.0, 1, -1, 1e-42, -1e-42, 1e14};
+      x = static_cast<float>(random.chance(0.3) ? kEdges[random.index(std::size(kEdges))] : random.uniform(-3, 3));
+    }
     for (const Target& target : targets()) {
       const Execution execution{.threads = 1, .target = &target};
       evaluate(tape, points.data(), kMany, together.data(), nullptr, execution);

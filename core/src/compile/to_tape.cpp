@@ -17,6 +17,9 @@ namespace {
 
 using Free = std::priority_queue<std::uint16_t, std::vector<std::uint16_t>, std::greater<>>;
 
+/// A chunk's registers, 512 bytes each with AVX-512, leave room in the first-level cache.
+constexpr int kManyRegisters = 24;
+
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// Whether it is a coordinate that lies in a register from the start.
@@ -24,8 +27,9 @@ bool is_given(const Ssa& ssa, std::size_t value) {
   return ssa.has_points_in_registers && ops::registry()[at(ssa.values[value].op)].axis >= 0;
 }
 
-/// Values in the order in which they are computed.
-std::vector<int> computed_order(const Ssa& ssa) {
+/// Values in the order in which they are computed. What an instruction reads from a register comes before what it finds
+/// in the accumulator, where registers are no object.
+std::vector<int> computed_order(const Ssa& ssa, bool spares_registers = true) {
   // Operands have lower indices, so one pass gives the registers that each value needs.
   std::vector<int> need(ssa.values.size(), 0);
   for (std::size_t i = 0; i < ssa.values.size(); ++i) {
@@ -45,7 +49,7 @@ std::vector<int> computed_order(const Ssa& ssa) {
     const Value& v = ssa.values[at(next)];
     int first = v.a;
     int second = v.b;
-    const bool from_register = (v.flags & Instruction::kChangesOther) != 0;
+    const bool from_register = !spares_registers && (v.flags & Instruction::kChangesOther) != 0;
     if (second >= 0 && (from_register || need[at(second)] > need[at(first)])) std::swap(first, second);
     if (done[at(next)] != 0) {
       open.pop_back();
@@ -88,7 +92,7 @@ class Slots {
 
 class Writer {
  public:
-  explicit Writer(const Ssa& ssa) : ssa_(ssa), order_(computed_order(ssa)) {
+  Writer(const Ssa& ssa, std::vector<int> order) : ssa_(ssa), order_(std::move(order)) {
     if (ssa.has_points_in_registers) registers_ = Slots(static_cast<std::uint16_t>(ssa.dimension));
   }
 
@@ -283,9 +287,13 @@ class Writer {
 
 }  // namespace
 
-Result<Tape> to_tape(const Ssa& ssa, const Facts& facts) { return Writer(ssa).run(facts); }
+Result<Tape> to_tape(const Ssa& ssa, const Facts& facts) { return Writer(ssa, computed_order(ssa)).run(facts); }
 
-ValueProgram to_value_program(const Ssa& fused) { return Writer(fused).run_values(); }
+ValueProgram to_value_program(const Ssa& fused) {
+  ValueProgram program = Writer(fused, computed_order(fused, false)).run_values();
+  if (!program.instructions.empty() && program.register_count <= kManyRegisters) return program;
+  return Writer(fused, computed_order(fused)).run_values();
+}
 
 }  // namespace thalweg::compiler
 

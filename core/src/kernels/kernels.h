@@ -7,6 +7,7 @@
 // entries; what lies beyond `count` may be anything and is computed and ignored.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -69,15 +70,17 @@ struct GradientColumns {
 }
 
 /// Floats of scratch that any of the evaluating kernels needs for a tape; align it to 64 bytes. Gradients have the
-/// largest registers, 2 + d numbers a lane, values the most lanes.
+/// largest registers, 2 + d numbers a lane, values the most lanes, and maybe a program with registers of its own.
 [[nodiscard]] constexpr std::size_t scratch_floats(const Tape& tape) {
   const auto registers = static_cast<std::size_t>(tape.register_count);
   const auto positions = static_cast<std::size_t>(tape.position_count);
   const auto dimension = static_cast<std::size_t>(tape.dimension);
   constexpr std::size_t kGradientLanes = kMostGradientWidth * 16;
   static_assert(kMostChunkLanes <= kGradientLanes * 4 && kGradientWidth * 5 <= kMostGradientWidth * 4);
-  return kGradientLanes * registers * (dimension + 2) + kMostChunkLanes * positions * dimension +
-         definition_floats(tape);
+  const std::size_t tape_floats =
+      kGradientLanes * registers * (dimension + 2) + kMostChunkLanes * positions * dimension;
+  const std::size_t value_floats = kMostChunkLanes * static_cast<std::size_t>(tape.values.register_count);
+  return std::max(tape_floats, value_floats) + definition_floats(tape);
 }
 
 using ValueKernel = void (*)(const Tape& tape, const float* const* points, std::size_t count, float* value,
