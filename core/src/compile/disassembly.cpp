@@ -3,6 +3,7 @@
 //
 // The printed form of a tape: one instruction a line, what it does to the accumulator, and its constants.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "ops/registry.h"
@@ -71,6 +72,54 @@ bool moves_position(const Instruction& in) {
   return in.op < Instruction::kKeep && ops::registry()[in.op].row.kind >= OpKind::place;
 }
 
+// --- value programs: constants stand where they are used ---
+
+std::string number_text(const char* format, float number) {
+  char text[32];
+  std::snprintf(text, sizeof text, format, static_cast<double>(number));
+  return text;
+}
+
+/// A register as the instruction takes it; `c` has w and c.
+std::string taken_text(std::uint16_t from, const float* c, bool is_affine, bool is_squared) {
+  std::string text = joined("r", std::to_string(from));
+  if (is_affine) {
+    if (c[0] != 1) text = c[0] == -1 ? joined("-", text) : joined(number_text("%.6g ", c[0]), text);
+    if (c[1] != 0) text += number_text(c[1] < 0 ? " - %.6g" : " + %.6g", std::fabs(c[1]));
+  }
+  return is_squared ? joined("square(", text, ")") : text;
+}
+
+std::string value_action(const ValueProgram& program, const Instruction& in) {
+  const ops::Entry& op = ops::registry()[in.op];
+  const float* const c = program.constants.data() + in.constants;
+  const auto has = [&](std::uint8_t flag) { return (in.flags & flag) != 0; };
+  if (op.operands == 0) return scalar_action(op, in);
+  const std::string first = !has(Instruction::kLoads) ? "acc"
+                                                      : taken_text(in.first, c + 2, has(Instruction::kAffineFirst),
+                                                                   has(Instruction::kSquaredFirst));
+  if (op.operands == 1) return joined("acc = ", op.row.name, "(", first, ")");
+  const std::string other = has(Instruction::kImmediate) ? number_text("%.6g", c[0])
+                                                         : taken_text(in.operand, c, has(Instruction::kAffineOther),
+                                                                      has(Instruction::kSquaredOther));
+  return has(Instruction::kSwapped) ? joined("acc = ", op.row.name, "(", first, ", ", other, ")")
+                                    : joined("acc = ", op.row.name, "(", other, ", ", first, ")");
+}
+
+std::string value_text(const ValueProgram& program) {
+  if (program.instructions.empty()) return "";
+  std::string text = "; values: " + std::to_string(program.instructions.size()) + " instructions, " +
+                     std::to_string(program.register_count) + " registers, the first with the coordinates\n";
+  for (std::size_t i = 0; i < program.instructions.size(); ++i) {
+    const Instruction& in = program.instructions[i];
+    const std::string target = in.target == Instruction::kNone ? "" : joined(" -> r", std::to_string(in.target));
+    char index[32];
+    std::snprintf(index, sizeof index, "%5zu  ", i);
+    text += joined(index, value_action(program, in), target, "\n");
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string Tape::disassembly() const {
@@ -87,7 +136,7 @@ std::string Tape::disassembly() const {
                   (in.flags & Instruction::kSupport) != 0 ? "support " : "");
     text += line + constants_text(*this, in) + "\n";
   }
-  return text;
+  return text + value_text(values);
 }
 
 }  // namespace thalweg

@@ -4,7 +4,9 @@
 // To find a scalar instruction and to bring its operands costs about as much as what it does. So what is a constant
 // away from a coordinate, or from another value that is kept, is no instruction of its own: those that use it take w r
 // + c for it, or the square of that. The bits stay the same: w is 1 or -1, or c is the zero that changes nothing.
-#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "compile/ssa.h"
 

@@ -43,6 +43,22 @@ TEST(Disassembly, ShowsPositionsRegistersSwapsAndSupport) {
             "    6  acc = subtraction(acc, r0)                 \n");
 }
 
+TEST(Disassembly, ShowsValueProgramsWithTheirConstantsInPlace) {
+  const auto tape = compile(expression("min(sqrt(square(x - 1) + square(y)) - 3, max(2 - 4 * x, abs(-y)) / 2)"));
+  ASSERT_TRUE(tape);
+  const std::string text = tape->disassembly();
+  EXPECT_EQ(text.substr(text.find("; values")),
+            "; values: 8 instructions, 4 registers, the first with the coordinates\n"
+            "    0  acc = add(square(r0 - 1), square(r1))\n"
+            "    1  acc = sqrt(acc)\n"
+            "    2  acc = sub(acc, 3) -> r2\n"
+            "    3  acc = sub(2, 4 r0) -> r3\n"
+            "    4  acc = abs(r1)\n"
+            "    5  acc = greatest(r3, acc)\n"
+            "    6  acc = mul(acc, 0.5)\n"
+            "    7  acc = least(r2, acc)\n");
+}
+
 TEST(Disassembly, ShowsTheLoadOfAValueUsedAgain) {
   const Shape part = smooth_union(0.5, {circle(2), circle(1)});
   const auto tape = compile(round(part, 0.25) - onion(part, 0.125));
