@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // A scalar instruction is so short that finding the next one costs more than it does itself. So a chunk is twice as
-// wide as elsewhere; an instruction is taken to code that knows where its operand comes from and whether its result is
-// kept; and it is taken there by comparisons, the frequent ops behind the fewest: processors foresee them over programs
-// of thousands of instructions, where they lose track of a jump through a table. The bits are those of the machine of
-// interpreter.inl.
+// wide as elsewhere; an instruction is taken to code that knows where its operands come from and how it takes them
+// (compile/fuse.cpp); and it is taken there by comparisons, the frequent ops behind the fewest: processors foresee them
+// over programs of thousands of instructions, where they lose track of a jump through a table. The bits are those of
+// the machine of interpreter.inl.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/scalars.cpp"
 #include <hwy/foreach_target.h>
@@ -34,8 +34,8 @@ constexpr bool is_form(int form) {
   if constexpr (Declared::kDeclaration.kind != OpKind::scalar) {
     return false;
   } else {
-    const bool changes_first = has(form, Instruction::kChangesFirst),
-               changes_other = has(form, Instruction::kChangesOther);
+    const bool changes_first = has(form, Instruction::kChangesFirst);
+    const bool changes_other = has(form, Instruction::kChangesOther);
     const bool squares = has(form, Instruction::kSquaredFirst | Instruction::kSquaredOther);
     if (Declared::kOperands == 0) return form == 0;
     if (Declared::kOperands == 1 && (form & ~(Instruction::kLoads | Instruction::kChangesFirst)) != 0) return false;
@@ -117,6 +117,7 @@ HWY_INLINE Pack<1> taken(const float* r, const float* c) {
   if constexpr (kSquared) a = a * a;
   return a;
 }
+
 /// Where an instruction finds its operands, one vector of the chunk after the other.
 struct Operands {
   const float* first;
