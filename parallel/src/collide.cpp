@@ -118,18 +118,21 @@ class CollideTask final : public TileTask, public OrderedBatch::Answer {
   void answer(const OrderedBatch::Part& part) override {
     Worker& own = worker(part.worker);
     ResultBuffer::prefetch(part.order, columns_, tape_.dimension);
-    const CollideColumns& results = own.results.take(columns_, part.order.size(), tape_.dimension);
+    const CollideColumns& results = own.results.take(columns_, part.order.size(), tape_.dimension, limits_.contacts);
     answer(part.tape, part.rows, part.order.size(), results, own);
     own.results.scatter(part.order, columns_, tape_.dimension);
+    if (limits_.contacts > 0) {
+      own.results.scatter_contacts(part.order, columns_.contacts, tape_.dimension, limits_.contacts);
+    }
   }
 
  private:
   /// Nearest surface points, and the point of contact of a disc as published, may be anywhere, where a tape shortened
-  /// for the queries says nothing; contacts are written in place.
+  /// for the queries says nothing.
   [[nodiscard]] bool answers_in_order() const {
     const bool stays = limits_.method != Method::published && limits_.gradient.strategy != Gradient::closest_point &&
                        limits_.normals.strategy != Gradient::closest_point;
-    return stays && limits_.contacts == 0 && OrderedBatch::suits_queries(tape_, queries_.count);
+    return stays && OrderedBatch::suits_queries(tape_, queries_.count);
   }
 
   Worker& worker(std::size_t index) {

@@ -34,18 +34,34 @@ void for_each_column(int dimension, Visit&& visit, Columns&... columns) {
   visit(std::size_t{1}, columns.stop...);
 }
 
+/// Calls `visit(width, columns.c...)` for the columns that have K contacts a row, with the numbers of each contact.
+template <class Visit, class... Columns>
+void for_each_contact_column(int dimension, Visit&& visit, Columns&... columns) {
+  const auto d = static_cast<std::size_t>(dimension);
+  visit(std::size_t{1}, columns.value...);
+  visit(d, columns.point...);
+  visit(d, columns.normal...);
+  visit(std::size_t{3}, columns.barycentric...);
+}
+
 /// A tile's own result columns, for rows that are answered in another order than the caller's.
 class ResultBuffer {
  public:
-  /// Room for `count` rows of every column that `wanted` has.
-  const CollideColumns& take(const CollideColumns& wanted, std::size_t count, int dimension) {
+  /// Room for `count` rows of every column that `wanted` has, with so many contacts a row.
+  const CollideColumns& take(const CollideColumns& wanted, std::size_t count, int dimension, std::size_t contacts = 0) {
     arena_.reset();
-    for_each_column(
-        dimension,
-        [&]<class T>(std::size_t width, T*& own, T* const& asked) {
-          own = asked == nullptr ? nullptr : arena_.take<T>(count * width);
-        },
-        columns_, wanted);
+    const auto take_rows = [&](std::size_t rows) {
+      return [this, rows]<class T>(std::size_t width, T*& own, T* const& asked) {
+        own = asked == nullptr ? nullptr : arena_.take<T>(rows * width);
+      };
+    };
+    for_each_column(dimension, take_rows(count), columns_, wanted);
+    columns_.contacts = {};
+    if (contacts == 0) return columns_;
+    for_each_contact_column(dimension, take_rows(count * contacts), columns_.contacts, wanted.contacts);
+    take_rows(count)(1, columns_.contacts.found, wanted.contacts.found);
+    // Which contacts a row has is asked when they are scattered.
+    columns_.contacts.kept = arena_.take<std::uint32_t>(count);
     return columns_;
   }
   /// Asks for the memory of rows that will be written.
@@ -73,6 +89,23 @@ class ResultBuffer {
           }
         },
         columns_, to);
+  }
+  /// The same of contacts; what is beyond a row's own stays as it is.
+  void scatter_contacts(std::span<const std::uint32_t> order, const ContactColumns& to, int dimension,
+                        std::size_t contacts) const {
+    const ContactColumns& from = columns_.contacts;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const std::size_t row = order[i];
+      if (to.found != nullptr) to.found[row] = from.found[i];
+      if (to.kept != nullptr) to.kept[row] = from.kept[i];
+      for_each_contact_column(
+          dimension,
+          [&](std::size_t width, const float* own, float* out) {
+            if (out == nullptr) return;
+            std::copy_n(own + i * contacts * width, from.kept[i] * width, out + row * contacts * width);
+          },
+          from, to);
+    }
   }
 
  private:

@@ -142,6 +142,60 @@ INSTANTIATE_TEST_SUITE_P(Methods, OrderedLocalMethods,
                                                           Method::distance_step),
                                           testing::Values(Gradient::autodiff, Gradient::central, Gradient::simplex)));
 
+/// With room for some contacts a row, which begins with what no contact has.
+struct Contacts {
+  static constexpr std::uint32_t kMost = 5;
+  std::vector<std::uint32_t> found, kept, evaluations;
+  std::vector<float> value, point, normal, barycentric;
+
+  Contacts(std::size_t n, std::size_t d)
+      : found(n),
+        kept(n),
+        evaluations(n),
+        value(n * kMost, -7),
+        point(n * kMost * d, -7),
+        normal(point),
+        barycentric(n * kMost * 3, -7) {}
+  CollideColumns from(std::size_t row, std::size_t d) {
+    CollideColumns columns;
+    columns.evaluations = &evaluations[row];
+    columns.contacts = {.found = &found[row],
+                        .kept = &kept[row],
+                        .value = &value[row * kMost],
+                        .point = &point[row * kMost * d],
+                        .normal = &normal[row * kMost * d],
+                        .barycentric = &barycentric[row * kMost * 3]};
+    return columns;
+  }
+  bool operator==(const Contacts&) const = default;
+};
+
+TEST(OrderedRowsWithContacts, HaveThoseOfRowsAlone) {
+  for (const std::size_t d : {2U, 3U}) {
+    const Tape tape = long_tape(static_cast<int>(d));
+    constexpr std::size_t kCount = 2000;
+    const std::vector<float> rows = scattered_triangles(kCount, d);
+    CollideOptions options;
+    options.contacts = Contacts::kMost;
+    options.margin = 8;
+    options.feature = 4;
+    Contacts alone(kCount, d);
+    for (std::size_t begin = 0; begin < kCount; begin += 250) {
+      ASSERT_TRUE(collide_triangles(tape, {&rows[begin * 3 * d], 250}, options, alone.from(begin, d), {.threads = 1}));
+    }
+    ASSERT_GT(std::ranges::count_if(alone.kept, [](std::uint32_t kept) { return kept > 1; }), 20);
+    Contacts together(kCount, d);
+    ASSERT_TRUE(collide_triangles(tape, {rows.data(), kCount}, options, together.from(0, d), {.threads = 2}));
+    EXPECT_TRUE(together == alone) << d;
+    // A caller who does not ask how many there are finds them all the same.
+    Contacts uncounted(kCount, d);
+    CollideColumns columns = uncounted.from(0, d);
+    columns.contacts.kept = columns.contacts.found = nullptr;
+    ASSERT_TRUE(collide_triangles(tape, {rows.data(), kCount}, options, columns, {.threads = 2}));
+    EXPECT_EQ(uncounted.value, alone.value) << d;
+  }
+}
+
 TEST(OrderedPoints, HaveTheColumnsOfEveryStrategyAsIfAlone) {
   const Tape tape = long_tape(2, 160);
   Random random(3);
