@@ -132,7 +132,7 @@ class CollideTask final : public TileTask, public OrderedBatch::Answer {
   [[nodiscard]] bool answers_in_order() const {
     const bool stays = limits_.method != Method::published && limits_.gradient.strategy != Gradient::closest_point &&
                        limits_.normals.strategy != Gradient::closest_point;
-    return stays && OrderedBatch::suits_queries(tape_, queries_.count);
+    return stays && OrderedBatch::suits_queries(tape_, queries_.count, kLeastTile);
   }
 
   Worker& worker(std::size_t index) {

@@ -13,6 +13,10 @@ namespace {
 /// Queries per tile: a pair takes microseconds, a hard one a millisecond.
 constexpr std::size_t kTile = 32;
 
+struct CollideBatch final : PairBatch {
+  void answer(const PairTile& rows, PairScratch& scratch) const override { solve(rows, scratch); }
+};
+
 }  // namespace
 
 Result<Summary> collide_pairs(const PairQueries& queries, const PairOptions& options, const CollideColumns& columns,
@@ -23,27 +27,23 @@ Result<Summary> collide_pairs(const PairQueries& queries, const PairOptions& opt
   const bool wants_points = strategy_of(options) != Gradient::autodiff && queries.count > 0;
   const std::size_t floats = wants_points ? queries.count * static_cast<std::size_t>(queries.shapes[0]->dimension) : 0;
   const Reused<PairMemory> memory;
-  PairTile all;
+  CollideBatch batch;
+  batch.tile = kTile;
+  PairTile& all = batch.all;
   all.queries = &queries;
   all.options = &options;
   all.kernels = (execution.target == nullptr ? &default_target() : execution.target)->kernels;
   all.columns = columns;
   // The summary counts what the caller may not have asked for.
-  all.columns.status = room(memory->status, columns.status, queries.count);
-  all.columns.evaluations = room(memory->evaluations, columns.evaluations, queries.count);
+  batch.status = all.columns.status = room(memory->status, columns.status, queries.count);
+  batch.evaluations = all.columns.evaluations = room(memory->evaluations, columns.evaluations, queries.count);
   all.columns.point = room(memory->point, columns.point, floats);
   all.contacts = contacts;
   if (contacts.normal != nullptr) {
     all.contacts.point = room(memory->contact_point, contacts.point, floats * contacts.capacity);
   }
   all.paths = paths;
-  return run_pairs(queries, *memory, execution, kTile, all.columns.status, all.columns.evaluations,
-                   [&all](std::size_t begin, std::size_t end, PairScratch& scratch) {
-                     PairTile tile = all;
-                     tile.begin = begin;
-                     tile.count = end - begin;
-                     solve(tile, scratch);
-                   });
+  return run_pairs(batch, *memory, execution);
 }
 
 }  // namespace thalweg

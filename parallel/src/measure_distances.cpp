@@ -13,6 +13,15 @@ namespace {
 /// Queries per tile: a distance takes microseconds.
 constexpr std::size_t kTile = 16;
 
+struct DistanceBatch final : PairBatch {
+  const DistanceOptions* options = nullptr;
+  DistanceColumns columns;
+
+  void answer(const PairTile& rows, PairScratch& scratch) const override {
+    rows.kernels->certify_distances({.pairs = rows, .options = options, .columns = columns}, scratch);
+  }
+};
+
 }  // namespace
 
 Result<Summary> measure_distances(const PairQueries& queries, const DistanceOptions& options,
@@ -23,21 +32,17 @@ Result<Summary> measure_distances(const PairQueries& queries, const DistanceOpti
   const auto checked = check_pairs(queries, of_pairs);
   if (!checked) return checked.error();
   const Reused<PairMemory> memory;
-  DistanceTile all;
-  all.pairs.queries = &queries;
-  all.pairs.options = &of_pairs;
-  all.pairs.kernels = (execution.target == nullptr ? &default_target() : execution.target)->kernels;
-  all.options = &options;
-  all.columns = columns;
-  all.columns.status = room(memory->status, columns.status, queries.count);
-  all.columns.evaluations = room(memory->evaluations, columns.evaluations, queries.count);
-  return run_pairs(queries, *memory, execution, kTile, all.columns.status, all.columns.evaluations,
-                   [&all](std::size_t begin, std::size_t end, PairScratch& scratch) {
-                     DistanceTile tile = all;
-                     tile.pairs.begin = begin;
-                     tile.pairs.count = end - begin;
-                     tile.pairs.kernels->certify_distances(tile, scratch);
-                   });
+  DistanceBatch batch;
+  batch.tile = kTile;
+  batch.measures = true;
+  batch.all.queries = &queries;
+  batch.all.options = &of_pairs;
+  batch.all.kernels = (execution.target == nullptr ? &default_target() : execution.target)->kernels;
+  batch.options = &options;
+  batch.columns = columns;
+  batch.status = batch.columns.status = room(memory->status, columns.status, queries.count);
+  batch.evaluations = batch.columns.evaluations = room(memory->evaluations, columns.evaluations, queries.count);
+  return run_pairs(batch, *memory, execution);
 }
 
 }  // namespace thalweg

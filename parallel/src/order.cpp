@@ -64,21 +64,6 @@ class Cells {
   float per_unit_[3] = {};
 };
 
-/// Calls body(begin, end, worker) until all rows are done, on all threads.
-template <class Body>
-void for_rows(std::size_t count, const Execution& execution, const Body& body) {
-  struct Task final : TileTask {
-    explicit Task(const Body& each) : body(each) {}
-    void run(std::size_t begin, std::size_t end, std::size_t worker) override { body(begin, end, worker); }
-    const Body& body;
-  } task(body);
-  // Neither counted nor cut short: the rows themselves are still to be answered.
-  Execution all = execution;
-  all.done = nullptr;
-  all.cancelled = nullptr;
-  schedule(task, count, kRowsPerTask, all);
-}
-
 }  // namespace
 
 void SpatialOrder::sort(const RowLayout& layout, const float* rows, std::size_t count, const Execution& execution) {
@@ -96,7 +81,7 @@ void SpatialOrder::sort(const RowLayout& layout, const float* rows, std::size_t 
       sample_.add(middle);
     }
     const Cells cells(layout, sample_, halvings_);
-    for_rows(count, execution, [&](std::size_t begin, std::size_t end, std::size_t worker) {
+    prepare_rows(count, kRowsPerTask, execution, [&](std::size_t begin, std::size_t end, std::size_t worker) {
       Extent extent;
       for (std::size_t i = begin; i < end; ++i) {
         const Extent own = row.extent(rows + i * Row::kWidth);

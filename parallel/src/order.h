@@ -16,7 +16,7 @@
 
 namespace thalweg {
 
-/// What a row of numbers holds: points, and for circles a radius after them.
+/// What a row of numbers holds: points, and for circles a radius after them. Two points are corners of a box.
 struct RowLayout {
   std::size_t dimension = 2;
   std::size_t points = 1;
@@ -84,6 +84,7 @@ template <class Body>
 void with_row(const RowLayout& layout, const Body& body) {
   const auto with_dimension = [&]<std::size_t kDimension>() {
     if (layout.points == 3) return body(RowOf<kDimension, 3, false>());
+    if (layout.points == 2) return body(RowOf<kDimension, 2, false>());
     return layout.has_radius ? body(RowOf<kDimension, 1, true>()) : body(RowOf<kDimension, 1, false>());
   };
   layout.dimension == 2 ? with_dimension.template operator()<2>() : with_dimension.template operator()<3>();

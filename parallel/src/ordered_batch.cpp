@@ -18,11 +18,12 @@
 namespace thalweg {
 namespace {
 
-/// Rows of a part: fewer make the tapes shorter, more keep the lanes of a search full (measured, growth/primitives).
-constexpr std::size_t kLeafRows = 256;
-/// Where a part's tape is longer than this it is halved on, down to so few rows.
+/// Where a part's tape is longer than this it is halved on, down to few rows.
 constexpr std::size_t kShortTape = 80;
-constexpr std::size_t kFewRows = 32;
+/// Fewer points are not worth an order.
+constexpr std::size_t kLeastPoints = 256;
+/// Tasks for each worker, at least, where there are rows enough.
+constexpr std::size_t kTasksPerWorker = 8;
 /// Programs of so many tasks are held at a time.
 constexpr std::size_t kHeldTasks = 1024;
 /// Rows ahead of which the gathering loop asks for memory.
@@ -83,12 +84,12 @@ struct OrderedBatch::Solve final : TileTask {
   Answer& answer;
 };
 
-bool OrderedBatch::suits_queries(const Tape& tape, std::size_t count) {
-  return tape.instructions.size() >= kLongTape && count >= kLeafRows && count < kMostOrdered && is_shortened(tape);
+bool OrderedBatch::suits_queries(const Tape& tape, std::size_t count, std::size_t least_count) {
+  return tape.instructions.size() >= kLongTape && count >= least_count && count < kMostOrdered && is_shortened(tape);
 }
 
 bool OrderedBatch::suits_points(const Tape& tape, std::size_t count, bool with_gradient) {
-  if (count < kLeafRows || count >= kMostOrdered) return false;
+  if (count < kLeastPoints || count >= kMostOrdered) return false;
   const auto length = static_cast<double>(tape.instructions.size());
   const double instruction = tape.only_scalars ? (with_gradient ? 0.05 : 0.021) : (with_gradient ? 0.11 : 0.05);
   const double ordered = kOrdering + length * (kShortening / static_cast<double>(count) + kShorteningForRow);
@@ -96,14 +97,16 @@ bool OrderedBatch::suits_points(const Tape& tape, std::size_t count, bool with_g
 }
 
 OrderedBatch::OrderedBatch(const Tape& tape, const RowLayout& layout, const float* rows, std::size_t count,
-                           const Surroundings& surroundings, const Execution& execution)
+                           const Surroundings& surroundings, const Execution& execution, PartSizes sizes)
     : tape_(tape),
       layout_(layout),
       rows_(rows),
       surroundings_(surroundings),
       execution_(execution),
       kernels_(*(execution.target == nullptr ? default_target() : *execution.target).kernels),
-      leaf_(execution.tile == 0 ? kLeafRows : execution.tile) {
+      sizes_(sizes) {
+  if (execution.tile != 0) sizes_.most = execution.tile;
+  sizes_.few = std::min(sizes_.few, sizes_.most);
   memory_->order.sort(layout, rows, count, execution);
   cut_into_tasks();
   const std::size_t workers = worker_count(execution);
@@ -133,7 +136,8 @@ void OrderedBatch::halve(Run& run, std::vector<Run>& into) const {
 }
 
 void OrderedBatch::cut_into_tasks() {
-  const std::size_t most = leaf_ * kRegionLanes;
+  const std::size_t share = memory_->order.rows().size() / (kTasksPerWorker * worker_count(execution_));
+  const std::size_t most = std::clamp(share, sizes_.most, sizes_.most * kRegionLanes);
   std::vector<Run>& tasks = memory_->tasks;
   tasks.assign(1, run_of(0, memory_->order.levels()));
   for (std::size_t i = 0; i < tasks.size(); ++i) {
@@ -267,8 +271,7 @@ void OrderedBatch::solve_run(const Run& run, const Run& task, const Tape& tape, 
     own.shorteners.back()->begin(tape_);
     own.tapes.push_back(std::make_unique<Tape>(tape_));
   }
-  const std::size_t few = std::min(kFewRows, leaf_);
-  const std::size_t most = run.count() <= leaf_ ? few : leaf_;
+  const std::size_t most = run.count() <= sizes_.most ? sizes_.few : sizes_.most;
   const auto weight = [&](const Run& r) { return r.count() <= most || r.level == 0 ? std::size_t{0} : r.count(); };
   std::vector<Run>& runs = own.runs[depth];
   runs.assign(1, run);
@@ -296,7 +299,7 @@ void OrderedBatch::solve_run(const Run& run, const Run& task, const Tape& tape, 
     const Run part = own.runs[depth][i];
     own.shorteners[depth]->shorten(i, *own.tapes[depth + 1]);
     const bool is_short = own.tapes[depth + 1]->instructions.size() <= kShortTape;
-    if (part.level == 0 || part.count() <= (is_short ? leaf_ : few)) {
+    if (part.level == 0 || part.count() <= (is_short ? sizes_.most : sizes_.few)) {
       answer_run(part, task, *own.tapes[depth + 1], index, answer);
     } else {
       solve_run(part, task, *own.tapes[depth + 1], depth + 1, index, answer);

@@ -23,6 +23,12 @@ struct Surroundings {
   ProbeRule probe;      ///< it probes so far around them
 };
 
+/// Rows of a part: no more than `most`, unless they share a cell, and where its tape is still long no more than `few`.
+struct PartSizes {
+  std::size_t most = 256;
+  std::size_t few = 32;
+};
+
 class OrderedBatch {
  public:
   /// Rows that lie close together, all answered by one worker.
@@ -39,11 +45,11 @@ class OrderedBatch {
   };
 
   /// Whether it pays, for queries that ask a tape so often that its length says it, and for single values or gradients.
-  [[nodiscard]] static bool suits_queries(const Tape& tape, std::size_t count);
+  [[nodiscard]] static bool suits_queries(const Tape& tape, std::size_t count, std::size_t least_count);
   [[nodiscard]] static bool suits_points(const Tape& tape, std::size_t count, bool with_gradient);
 
   OrderedBatch(const Tape& tape, const RowLayout& layout, const float* rows, std::size_t count,
-               const Surroundings& surroundings, const Execution& execution);
+               const Surroundings& surroundings, const Execution& execution, PartSizes sizes = {});
   ~OrderedBatch();
   OrderedBatch(const OrderedBatch&) = delete;
   OrderedBatch& operator=(const OrderedBatch&) = delete;
@@ -83,7 +89,7 @@ class OrderedBatch {
   Surroundings surroundings_;
   const Execution& execution_;
   const Kernels& kernels_;
-  std::size_t leaf_;       ///< rows of a part at the most, unless they share a cell
+  PartSizes sizes_;
   std::size_t first_ = 0;  ///< of the tasks whose tapes are held
   Reused<Memory> memory_;
 };

@@ -23,4 +23,19 @@ class TileTask {
 /// Cuts `count` rows into tiles and runs them all; returns false if it was cancelled. One virtual call per tile.
 bool schedule(TileTask& task, std::size_t count, std::size_t tile, const Execution& execution);
 
+/// Calls body(begin, end, worker) until all rows are done: neither counted nor cut short, for what comes before rows
+/// are answered.
+template <class Body>
+void prepare_rows(std::size_t count, std::size_t tile, const Execution& execution, const Body& body) {
+  struct Task final : TileTask {
+    explicit Task(const Body& each) : body(each) {}
+    void run(std::size_t begin, std::size_t end, std::size_t worker) override { body(begin, end, worker); }
+    const Body& body;
+  } task(body);
+  Execution all = execution;
+  all.done = nullptr;
+  all.cancelled = nullptr;
+  schedule(task, count, tile, all);
+}
+
 }  // namespace thalweg

@@ -233,6 +233,26 @@ TEST(WarmBatch, AllocatesNothing) {
   }
 }
 
+TEST(WarmBatchOfPairsNearALongTape, AllocatesNothing) {
+  constexpr std::size_t kCount = 200;
+  const Tape many = std::move(compile(many_discs())).value(), body = std::move(compile(flat_and_round())).value();
+  const Tape* const shapes[2] = {&many, &body};
+  oracle::Random random(9);
+  std::vector<float> poses(3 * kCount), point(2 * kCount);
+  for (float& x : poses) x = static_cast<float>(random.uniform(-4, 4));
+  CollideColumns columns;
+  columns.point = point.data();
+  DistanceColumns distances;
+  distances.point_a = point.data();
+  const PairQueries queries{shapes, 2, poses.data(), nullptr, kCount};
+  const auto run = [&] {
+    static_cast<void>(collide_pairs(queries, {}, columns, {}, {.threads = 1}));
+    static_cast<void>(measure_distances(queries, {}, distances, {.threads = 1}));
+  };
+  for (int round = 0; round < 3; ++round) run();
+  EXPECT_EQ(allocations_of(run), 0U);
+}
+
 TEST(WarmBatchOfPairs, AllocatesNothing) {
   constexpr std::size_t kCount = 200;
   const Tape tape = std::move(compile(torus(0.35, 0.15))).value();

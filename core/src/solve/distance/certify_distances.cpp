@@ -17,12 +17,12 @@ namespace HWY_NAMESPACE {
 template <int D>
 void certify_distances_of(const DistanceTile& tile, PairScratch& scratch) {
   DistanceSearch<D> search(tile, scratch);
-  for (size_t row = tile.pairs.begin; row < tile.pairs.begin + tile.pairs.count; ++row) search.run(row);
+  for (size_t i = 0; i < tile.pairs.count; ++i) search.run(tile.pairs.row(i));
 }
 
 void certify_distances(const DistanceTile& tile, PairScratch& scratch) {
   const PairQueries& queries = *tile.pairs.queries;
-  const size_t first = shapes_of(queries, tile.pairs.begin).first;
+  const size_t first = shapes_of(queries, tile.pairs.row(0)).first;
   queries.shapes[first]->dimension == 2 ? certify_distances_of<2>(tile, scratch)
                                         : certify_distances_of<3>(tile, scratch);
 }

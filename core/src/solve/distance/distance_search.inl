@@ -54,10 +54,7 @@ class DistanceSearch {
     const double size = problem_.limits.size;
     tolerance_ = tile_.options->tolerance > 0 ? tile_.options->tolerance : 1e-2 * size;
     begin();
-    const PairShapes shapes = shapes_of(*tile_.pairs.queries, row);
-    Twin& a = scratch_.twin(*tile_.pairs.queries, shapes.first);
-    Twin& b = scratch_.twin(*tile_.pairs.queries, shapes.second);
-    Witnesses witnesses(problem_, a, b);
+    Witnesses witnesses(problem_, twins_of(tile_.pairs, row, scratch_));
     witnesses_ = &witnesses;
     improve();
     double lower = 0;
@@ -78,11 +75,7 @@ class DistanceSearch {
   void begin() {
     scratch_.query.reset();
     evaluations_ = level_ = improvements_ = 0;
-    fields_.tile = &tile_.pairs;
-    fields_.a = problem_.a;
-    fields_.b = problem_.b;
-    fields_.scratch_a = scratch_.query.template take<float>(scratch_floats(*problem_.a));
-    fields_.scratch_b = scratch_.query.template take<float>(scratch_floats(*problem_.b));
+    fields_.begin(tile_.pairs, problem_, scratch_.query);
     PairFrame<D>& frame = fields_.frame;
     box_a_ = problem_.a->facts.bounds;
     box_b_ = problem_.pose.to_a(problem_.b->facts.bounds, D);
@@ -250,16 +243,15 @@ class DistanceSearch {
     place_cells(fields_.frame, open_, points_);
     fields_.gradients(points_, open_.count);
     FarDistances far;
-    const Kernels& kernels = *tile_.pairs.kernels;
-    if (!fields_.a->facts.convex) {
+    if (!fields_.a.facts().convex) {
       far.a = far_a_;
       aim(fields_.frame, points_.a, points_.gradient_a, far.a, open_, far_points_.a);
-      kernels.value(*fields_.a, far_points_.a, open_.count, far_points_.value_a, fields_.scratch_a);
+      fields_.a.values(far_points_.a, open_.count, far_points_.value_a);
     }
-    if (!fields_.b->facts.convex) {
+    if (!fields_.b.facts().convex) {
       far.b = far_b_;
       aim(fields_.frame, points_.b, points_.gradient_b, far.b, open_, far_points_.b);
-      kernels.value(*fields_.b, far_points_.b, open_.count, far_points_.value_b, fields_.scratch_b);
+      fields_.b.values(far_points_.b, open_.count, far_points_.value_b);
     }
     evaluations_ += static_cast<uint32_t>((far.a != nullptr || far.b != nullptr ? 2 : 1) * open_.count);
     join_bounds(fields_.frame, points_, far, far_points_, open_);

@@ -30,15 +30,15 @@ double Witnesses::value_at(int which, const double* at) {
   double own[3] = {};
   std::copy_n(at, 3, own);
   if (which == 1) problem_.pose.to_b(at, own, problem_.dimension);
-  return twins_[which]->value(own);
+  return twins_[which].value(own);
 }
 
 double Witnesses::gradient_at(int which, const double* at, double* gradient) {
   ++evaluations_;
-  if (which == 0) return twins_[0]->gradient(at, gradient);
+  if (which == 0) return twins_[0].gradient(at, gradient);
   double own[3] = {}, turned[3] = {};
   problem_.pose.to_b(at, own, problem_.dimension);
-  const double f = twins_[1]->gradient(own, turned);
+  const double f = twins_[1].gradient(own, turned);
   problem_.pose.turn_to_a(turned, gradient, problem_.dimension);
   return f;
 }
@@ -124,7 +124,7 @@ void Witnesses::search_inside(int which, const double* from, Footing& found) {
     const double distance = distance_between(at, own, d);
     if (distance >= nearest) continue;
     ++evaluations_;
-    if (!(twins_[which]->value(at) < -deep)) continue;
+    if (!(twins_[which].value(at) < -deep)) continue;
     nearest = distance;
     std::copy_n(at, 3, best);
   }
@@ -138,7 +138,7 @@ void Witnesses::search_inside(int which, const double* from, Footing& found) {
     const double middle = (inside + outside) / 2;
     place(middle);
     ++evaluations_;
-    (twins_[which]->value(at) < -deep ? inside : outside) = middle;
+    (twins_[which].value(at) < -deep ? inside : outside) = middle;
   }
   place(inside);
   std::copy_n(at, 3, found.point);

@@ -13,7 +13,7 @@ namespace thalweg {
 
 class Witnesses {
  public:
-  Witnesses(const PairProblem& problem, Twin& a, Twin& b) : problem_(problem), twins_{&a, &b} {}
+  Witnesses(const PairProblem& problem, const PairTwins& twins) : problem_(problem), twins_(twins) {}
 
   /// Looks for witnesses near a point of A's frame, and keeps the nearest pair.
   void look_near(const double* point);
@@ -41,7 +41,7 @@ class Witnesses {
   bool meet(const double* point);
 
   const PairProblem& problem_;
-  Twin* twins_[2];
+  PairTwins twins_;
   double at_[2][3] = {};
   double distance_ = std::numeric_limits<double>::infinity();
   bool common_ = false;

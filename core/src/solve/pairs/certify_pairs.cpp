@@ -15,33 +15,32 @@ HWY_BEFORE_NAMESPACE();
 namespace thalweg {
 namespace HWY_NAMESPACE {
 
-/// Rows from `begin` on that ask about the same two shapes, as many as make a cohort.
-inline size_t cohort_size(const PairTile& tile, size_t begin, size_t end) {
-  const PairShapes shapes = shapes_of(*tile.queries, begin);
+/// Rows from the tile's `first` on that ask about the same two shapes, as many as make a cohort.
+inline size_t cohort_size(const PairTile& tile, size_t first) {
+  const auto shapes = [&](size_t i) { return shapes_of(*tile.queries, tile.row(i)); };
   size_t size = 1;
-  while (size < kCohortRows && begin + size < end && shapes_of(*tile.queries, begin + size) == shapes) ++size;
+  while (size < kCohortRows && first + size < tile.count && shapes(first + size) == shapes(first)) ++size;
   return size;
 }
 
 template <int D>
 void certify_pairs_of(const PairTile& tile, PairScratch& scratch) {
-  const size_t end = tile.begin + tile.count;
   const bool wants_regions = tile.options->goal == Goal::deepest || tile.contacts.found != nullptr;
   PairSearch<D> search(tile, scratch);
   PairCohort<D> cohort(tile, scratch);
-  for (size_t row = tile.begin; row < end;) {
-    const size_t count = cohort_size(tile, row, end);
+  for (size_t first = 0; first < tile.count;) {
+    const size_t count = cohort_size(tile, first);
     uint32_t spent[kCohortRows] = {};
-    const uint32_t left = wants_regions ? cohort.run(row, count, scratch, spent) : ~uint32_t{0};
+    const uint32_t left = wants_regions ? cohort.run(first, count, scratch, spent) : ~uint32_t{0};
     for (size_t k = 0; k < count; ++k) {
-      if ((left >> k & 1) != 0) search.run(row + k, spent[k]);
+      if ((left >> k & 1) != 0) search.run(tile.row(first + k), spent[k]);
     }
-    row += count;
+    first += count;
   }
 }
 
 void certify_pairs(const PairTile& tile, PairScratch& scratch) {
-  const size_t first = shapes_of(*tile.queries, tile.begin).first;
+  const size_t first = shapes_of(*tile.queries, tile.row(0)).first;
   tile.queries->shapes[first]->dimension == 2 ? certify_pairs_of<2>(tile, scratch) : certify_pairs_of<3>(tile, scratch);
 }
 

@@ -37,8 +37,8 @@ class PairCohort : private CohortRefiner<D> {
  public:
   using Base::Base;
 
-  /// Answers what it can of the `count` rows from `first` on, all of the same two shapes. Returns, bit by bit, which
-  /// are left over; `evaluations` says what each took.
+  /// Answers what it can of `count` rows of the tile, from its `first` on, all of the same two shapes. Returns, bit by
+  /// bit, which are left over; `evaluations` says what each took.
   uint32_t run(size_t first, size_t count, PairScratch& scratch, uint32_t* evaluations) {
     this->begin(first, count, scratch);
     this->explore();

@@ -148,7 +148,7 @@ void bound_span(const BoundPass<D>& pass, CohortRow<D>& row, PairCells cells, Sp
   // Copies: stores of vectors may write anything but these.
   const PairPoints at = *pass.points, far = *pass.far;
   ChildBounds<D> bounds = out;
-  const bool convex_a = pass.fields->a->facts.convex, convex_b = pass.fields->b->facts.convex;
+  const bool convex_a = pass.fields->a.facts().convex, convex_b = pass.fields->b.facts().convex;
   float* const* units_a = convex_a ? at.gradient_a : far.gradient_a;
   float* const* units_b = convex_b ? at.gradient_b : far.gradient_b;
   const auto slack = hn::Set(d, row.frame.slack);

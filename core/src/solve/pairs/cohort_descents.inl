@@ -79,8 +79,7 @@ class CohortDescents {
       row.count(kFarRungs);
     }
     const size_t most = count_ * kFarRungs;
-    fields.tile->kernels->value(*fields.a, points_.a, most, points_.value_a, fields.scratch_a);
-    fields.tile->kernels->value(*fields.b, points_.b, most, points_.value_b, fields.scratch_b);
+    fields.values(points_, most);
     for (size_t j = 0; j < count_; ++j) {
       CohortRow<D>& row = rows[jobs_[j].row];
       const uint32_t region = jobs_[j].region;

@@ -43,7 +43,6 @@ class CohortExplorer {
     rows_ = arena.take<CohortRow<D>>(kCohortRows);
     descents_.take(arena);
     joiner_.take(arena);
-    fields_.tile = &tile;
   }
 
  protected:
@@ -54,7 +53,7 @@ class CohortExplorer {
     spans_.count = 0;
     for (size_t k = 0; k < count; ++k) {
       CohortRow<D>& row = rows_[k];
-      row.index = first + k;
+      row.index = tile_.row(first + k);
       row.evaluations = 0;
       row.stage = Stage::alone;
       if (!prepare(*tile_.queries, *tile_.options, row.index, row.problem) || row.problem.empty()) continue;
@@ -67,11 +66,7 @@ class CohortExplorer {
       spans_.add(static_cast<uint32_t>(k), begin, wave_.count);
     }
     if (spans_.count == 0) return;
-    const PairProblem& any = rows_[spans_.of[0].row].problem;
-    fields_.a = any.a;
-    fields_.b = any.b;
-    fields_.scratch_a = scratch.query.template take<float>(scratch_floats(*any.a));
-    fields_.scratch_b = scratch.query.template take<float>(scratch_floats(*any.b));
+    fields_.begin(tile_, rows_[spans_.of[0].row].problem, scratch.query);
     evaluate(false);
     descents_.clear();
     for (const Span& span : spans_) descend_from_best(span, true);

@@ -49,9 +49,8 @@ class CohortRefiner : protected CohortExplorer<D> {
   }
 
   void aim() {
-    const Kernels& kernels = *tile_.kernels;
     const size_t count = spans_.cells();
-    const bool bends_a = !fields_.a->facts.convex, bends_b = !fields_.b->facts.convex;
+    const bool bends_a = !fields_.a.facts().convex, bends_b = !fields_.b.facts().convex;
     for (const Span& span : spans_) {
       CohortRow<D>& row = rows_[span.row];
       row.set_far(row.reach * wave_.size[span.begin]);
@@ -65,8 +64,8 @@ class CohortRefiner : protected CohortExplorer<D> {
       }
       if (bends_a || bends_b) row.count(span.end - span.begin);
     }
-    if (bends_a) kernels.value(*fields_.a, far_.a, count, far_.value_a, fields_.scratch_a);
-    if (bends_b) kernels.value(*fields_.b, far_.b, count, far_.value_b, fields_.scratch_b);
+    if (bends_a) fields_.a.values(far_.a, count, far_.value_a);
+    if (bends_b) fields_.b.values(far_.b, count, far_.value_b);
   }
 
   /// The wave becomes the children of its cells that the joint bound leaves open.

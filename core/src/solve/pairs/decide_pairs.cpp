@@ -32,8 +32,8 @@ struct Linear {
 
 class PairDecider {
  public:
-  PairDecider(const PairProblem& problem, Twin& a, Twin& b, std::vector<PairHeapCell>& heap)
-      : problem_(problem), d_(problem.dimension), twins_{&a, &b}, heap_(heap) {
+  PairDecider(const PairProblem& problem, PairTwins& twins, std::vector<PairHeapCell>& heap)
+      : problem_(problem), d_(problem.dimension), twins_(twins), heap_(heap) {
     heap_.clear();
     double largest = 0;
     for (int axis = 0; axis < d_; ++axis) {
@@ -91,7 +91,7 @@ class PairDecider {
     double exact[3] = {};
     std::copy_n(point, d_, exact);
     ++spent_;
-    const double value = evaluate_pair(problem_, *twins_[0], *twins_[1], exact);
+    const double value = evaluate_pair(problem_, twins_, exact);
     if (!(value < value_)) return;
     value_ = value;
     std::copy_n(point, d_, point_);
@@ -111,7 +111,7 @@ class PairDecider {
     std::copy_n(cell.at, 3, at);
     if (which == 1) problem_.pose.to_b(cell.at, at, d_);
     Linear f;
-    f.value = twins_[which]->gradient(at, gradient);
+    f.value = twins_[which].gradient(at, gradient);
     f.base = -std::numeric_limits<double>::max() / 4;
     double square = 0;
     for (int axis = 0; axis < d_; ++axis) square += gradient[axis] * gradient[axis];
@@ -123,7 +123,7 @@ class PairDecider {
         far[axis] = at[axis] + distance * gradient[axis] / tape.facts.lipschitz;
       }
       const double bend = distance + reach * reach / (2 * distance);
-      f.base = twins_[which]->value(far) - tape.facts.lipschitz * bend;
+      f.base = twins_[which].value(far) - tape.facts.lipschitz * bend;
     } else if (tape.facts.convex) {
       f.base = f.value;
     }
@@ -203,7 +203,7 @@ class PairDecider {
 
   const PairProblem& problem_;
   int d_;
-  Twin* twins_[2];
+  PairTwins& twins_;
   std::vector<PairHeapCell>& heap_;
   double slack_ = 0;
   double value_ = 0, lower_ = 0;
@@ -214,10 +214,10 @@ class PairDecider {
 
 }  // namespace
 
-PairDecision decide_in_double(const PairProblem& problem, const float* start, std::uint32_t evaluations, Twin& a,
-                              Twin& b, std::vector<PairHeapCell>& heap) {
+PairDecision decide_in_double(const PairProblem& problem, const float* start, std::uint32_t evaluations,
+                              PairTwins& twins, std::vector<PairHeapCell>& heap) {
   if (evaluations < 1 + 3 * kMostPerVisit) return {};
-  return PairDecider(problem, a, b, heap).run(start, evaluations);
+  return PairDecider(problem, twins, heap).run(start, evaluations);
 }
 
 }  // namespace thalweg

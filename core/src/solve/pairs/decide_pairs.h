@@ -16,6 +16,6 @@ struct PairDecision {
 
 /// Looks for a sign, best first, over the whole region, from a point already known, with at most `evaluations` more.
 [[nodiscard]] PairDecision decide_in_double(const PairProblem& problem, const float* start, std::uint32_t evaluations,
-                                            Twin& a, Twin& b, std::vector<PairHeapCell>& heap);
+                                            PairTwins& twins, std::vector<PairHeapCell>& heap);
 
 }  // namespace thalweg

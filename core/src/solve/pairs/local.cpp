@@ -82,8 +82,8 @@ class LocalSearch {
     starts_ = problem_.limits.starts;
     lanes_.take(arena, padded(starts_), d_);
     active_ = arena.take<bool>(starts_);
-    scratch_a_ = arena.take<float>(scratch_floats(*problem_.a));
-    scratch_b_ = arena.take<float>(scratch_floats(*problem_.b));
+    a_.begin(*tile_.kernels, *problem_.a, tile_.near[0], arena);
+    b_.begin(*tile_.kernels, *problem_.b, tile_.near[1], arena);
     evaluations_ = iterations_ = 0;
     for (int i = 0; i < 9; ++i) rotation_[i] = static_cast<float>(problem_.pose.rotation[i]);
     for (int axis = 0; axis < 3; ++axis) translation_[axis] = static_cast<float>(problem_.pose.translation[axis]);
@@ -114,8 +114,8 @@ class LocalSearch {
 
   void values(std::size_t count) {
     place(count);
-    tile_.kernels->value(*problem_.a, lanes_.trial, count, lanes_.value_a, scratch_a_);
-    tile_.kernels->value(*problem_.b, lanes_.in_b, count, lanes_.value_b, scratch_b_);
+    a_.values(lanes_.trial, count, lanes_.value_a);
+    b_.values(lanes_.in_b, count, lanes_.value_b);
     evaluations_ += static_cast<std::uint32_t>(count);
   }
 
@@ -132,16 +132,17 @@ class LocalSearch {
     return count;
   }
 
-  void by_strategy(const Tape& tape, const GradientColumns& columns, float* scratch) const {
+  void by_strategy(const NearField& field, const GradientColumns& columns) const {
     std::fill_n(columns.evaluations, columns.count, 0);
+    const Tape& tape = field.at(columns.points, columns.count);
     const GradientRule rule = rule_of(tape, strategy_of(*tile_.options), tile_.options->gradient_offset);
-    evaluate_gradient(rule, tape, *tile_.kernels, columns, scratch);
+    evaluate_gradient(rule, tape, *tile_.kernels, columns, field.scratch());
   }
 
   void gradients(std::size_t count) {
     place(count);
-    by_strategy(*problem_.a, {lanes_.trial, count, lanes_.value_a, lanes_.gradient_a, lanes_.spent_a}, scratch_a_);
-    by_strategy(*problem_.b, {lanes_.in_b, count, lanes_.value_b, lanes_.gradient_b, lanes_.spent_b}, scratch_b_);
+    by_strategy(a_, {lanes_.trial, count, lanes_.value_a, lanes_.gradient_a, lanes_.spent_a});
+    by_strategy(b_, {lanes_.in_b, count, lanes_.value_b, lanes_.gradient_b, lanes_.spent_b});
     for (std::size_t i = 0; i < count; ++i) evaluations_ += std::max(lanes_.spent_a[i], lanes_.spent_b[i]);
     for (std::size_t i = 0; i < count; ++i) {
       float turned[3] = {};
@@ -367,8 +368,7 @@ class LocalSearch {
   std::size_t row_ = 0;
   std::uint32_t starts_ = 1;
   bool* active_ = nullptr;
-  float* scratch_a_ = nullptr;
-  float* scratch_b_ = nullptr;
+  NearField a_, b_;
   float rotation_[9] = {};
   float translation_[3] = {};
   std::uint32_t evaluations_ = 0, iterations_ = 0;
@@ -389,7 +389,7 @@ void halton_start(const PairProblem& problem, std::uint32_t index, float* point)
 
 void search_locally(const PairTile& tile, PairScratch& scratch) {
   LocalSearch search(tile, scratch);
-  for (std::size_t i = 0; i < tile.count; ++i) search.run(tile.begin + i);
+  for (std::size_t i = 0; i < tile.count; ++i) search.run(tile.row(i));
 }
 
 void solve(const PairTile& tile, PairScratch& scratch) {

@@ -11,7 +11,7 @@
 
 #include "kernels/kernels.h"
 #include "kernels/twin.h"
-#include "solve/arena.h"
+#include "solve/pairs/stand_in.h"
 #include "thalweg/pairs.h"
 
 namespace thalweg {
@@ -32,11 +32,15 @@ struct PairTile {
   const PairQueries* queries = nullptr;
   const PairOptions* options = nullptr;
   const Kernels* kernels = nullptr;
-  std::size_t begin = 0;  ///< rows of the queries
+  std::size_t begin = 0;  ///< rows of the queries, from here on
   std::size_t count = 0;
-  CollideColumns columns;  ///< of all rows; `barycentric` is not used
+  const std::uint32_t* rows = nullptr;  ///< instead, where they are not one after the other
+  StandIn near[2];                      ///< of the first shape and of the second
+  CollideColumns columns;               ///< of all rows; `barycentric` is not used
   PairContacts contacts;
   PairPaths paths;
+
+  [[nodiscard]] std::size_t row(std::size_t i) const { return rows == nullptr ? begin + i : rows[i]; }
 };
 
 /// An open cell of the search in double: a box by centre and half extents in A's frame, and its bound.
@@ -53,6 +57,7 @@ struct PairScratch {
   Arena cohort;  ///< of rows searched side by side
   std::vector<PairHeapCell> heap;
   std::vector<std::unique_ptr<Twin>> twins;  ///< one per shape, made when first needed
+  Twin near[2];                              ///< of the tapes that stand in
 
   /// For other shapes from now on.
   void begin(const PairQueries& queries) {

@@ -36,20 +36,20 @@ inline constexpr size_t kFarRungs = 8;
 /// Evaluates both fields of one query.
 template <int D>
 struct PairFields {
-  const PairTile* tile = nullptr;
-  const Tape* a = nullptr;
-  const Tape* b = nullptr;
-  float* scratch_a = nullptr;
-  float* scratch_b = nullptr;
+  NearField a, b;
   PairFrame<D> frame;
 
+  void begin(const PairTile& tile, const PairProblem& problem, Arena& arena) {
+    a.begin(*tile.kernels, *problem.a, tile.near[0], arena);
+    b.begin(*tile.kernels, *problem.b, tile.near[1], arena);
+  }
   void values(PairPoints& points, size_t count) const {
-    tile->kernels->value(*a, points.a, count, points.value_a, scratch_a);
-    tile->kernels->value(*b, points.b, count, points.value_b, scratch_b);
+    a.values(points.a, count, points.value_a);
+    b.values(points.b, count, points.value_b);
   }
   void gradients(PairPoints& points, size_t count) const {
-    tile->kernels->gradient(*a, points.a, count, points.value_a, points.gradient_a, scratch_a);
-    tile->kernels->gradient(*b, points.b, count, points.value_b, points.gradient_b, scratch_b);
+    a.gradients(points.a, count, points.value_a, points.gradient_a);
+    b.gradients(points.b, count, points.value_b, points.gradient_b);
   }
 };
 

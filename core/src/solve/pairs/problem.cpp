@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 
 #include "gradient/strategies.h"
 
@@ -172,10 +173,37 @@ bool prepare(const PairQueries& queries, const PairOptions& options, std::size_t
   return true;
 }
 
-double evaluate_pair(const PairProblem& problem, Twin& a, Twin& b, const double* point) {
+Bounds zone_of(const PairProblem& problem, std::size_t side) {
+  Bounds zone;
+  for (int axis = 0; axis < problem.dimension; ++axis) {
+    std::tie(zone.lo[axis], zone.hi[axis]) = std::minmax(problem.lo[axis], problem.hi[axis]);
+  }
+  if (side == 0) return zone;
+  double middle[3] = {}, in_b[3] = {};
+  for (int axis = 0; axis < problem.dimension; ++axis) middle[axis] = (zone.lo[axis] + zone.hi[axis]) / 2;
+  problem.pose.to_b(middle, in_b, problem.dimension);
+  Bounds turned;
+  for (int axis = 0; axis < problem.dimension; ++axis) {
+    double half = 0;
+    for (int row = 0; row < problem.dimension; ++row) {
+      half += std::fabs(problem.pose.rotation[3 * row + axis]) * (zone.hi[row] - zone.lo[row]) / 2;
+    }
+    turned.lo[axis] = in_b[axis] - half;
+    turned.hi[axis] = in_b[axis] + half;
+  }
+  return turned;
+}
+
+PairTwins twins_of(const PairTile& tile, std::size_t row, PairScratch& scratch) {
+  const PairShapes shapes = shapes_of(*tile.queries, row);
+  return {{{scratch.twin(*tile.queries, shapes.first), scratch.near[0], tile.near[0]},
+           {scratch.twin(*tile.queries, shapes.second), scratch.near[1], tile.near[1]}}};
+}
+
+double evaluate_pair(const PairProblem& problem, PairTwins& twins, const double* point) {
   double in_b[3] = {};
   problem.pose.to_b(point, in_b, problem.dimension);
-  return std::max(a.value(point), b.value(in_b));
+  return std::max(twins[0].value(point), twins[1].value(in_b));
 }
 
 Result<bool> check_pairs(const PairQueries& queries, const PairOptions& options) {

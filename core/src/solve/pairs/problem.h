@@ -58,8 +58,15 @@ struct PairProblem {
 [[nodiscard]] bool prepare(const PairQueries& queries, const PairOptions& options, std::size_t row,
                            PairProblem& problem);
 
-/// g in double at a point of A's frame, by the twins of the two tapes.
-[[nodiscard]] double evaluate_pair(const PairProblem& problem, Twin& a, Twin& b, const double* point);
+/// The box, in the frame of the pair's first or second shape, where both bounding boxes meet or, where they do not,
+/// what lies between them.
+[[nodiscard]] Bounds zone_of(const PairProblem& problem, std::size_t side);
+
+/// The twins of row `row`.
+[[nodiscard]] PairTwins twins_of(const PairTile& tile, std::size_t row, PairScratch& scratch);
+
+/// g in double at a point of A's frame.
+[[nodiscard]] double evaluate_pair(const PairProblem& problem, PairTwins& twins, const double* point);
 
 /// Defaults filled in for one pair of tapes.
 [[nodiscard]] PairLimits limits_of(const Tape& a, const Tape& b, const PairOptions& options);

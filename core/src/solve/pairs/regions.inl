@@ -304,11 +304,9 @@ class PairSearch : private PairExplorer<D> {
   }
 
   bool decide() {
-    const PairShapes shapes = shapes_of(*tile_.queries, row_index_);
-    Twin& a = scratch_.twin(*tile_.queries, shapes.first);
-    Twin& b = scratch_.twin(*tile_.queries, shapes.second);
+    PairTwins twins = twins_of(tile_, row_index_, scratch_);
     const uint32_t left = problem_.limits.budget - std::min(problem_.limits.budget, evaluations_);
-    const PairDecision decision = decide_in_double(problem_, found_.point, left, a, b, scratch_.heap);
+    const PairDecision decision = decide_in_double(problem_, found_.point, left, twins, scratch_.heap);
     row_.evaluations += decision.evaluations;
     ++row_.iterations;
     if (decision.evaluations == 0) return false;
@@ -327,10 +325,8 @@ class PairSearch : private PairExplorer<D> {
       found_.point[axis] = static_cast<float>(std::isfinite(middle) ? middle : 0.0);
       point[axis] = static_cast<double>(found_.point[axis]);
     }
-    const PairShapes shapes = shapes_of(*tile_.queries, row);
-    Twin& a = scratch_.twin(*tile_.queries, shapes.first);
-    Twin& b = scratch_.twin(*tile_.queries, shapes.second);
-    found_.value = static_cast<float>(evaluate_pair(problem_, a, b, point));
+    PairTwins twins = twins_of(tile_, row, scratch_);
+    found_.value = static_cast<float>(evaluate_pair(problem_, twins, point));
     found_.converged = true;
     row_.evaluations = 1;
     write(row, true);

@@ -88,11 +88,7 @@ class PairExplorer {
     closed_lower_ = kNoBound;
     resolved_ = true;
     for (PairCells* cells : {&wave_, &open_, &settled_, &shallow_, &parents_}) cells->count = 0;
-    fields_.tile = &tile_;
-    fields_.a = problem_.a;
-    fields_.b = problem_.b;
-    fields_.scratch_a = scratch_.query.template take<float>(scratch_floats(*problem_.a));
-    fields_.scratch_b = scratch_.query.template take<float>(scratch_floats(*problem_.b));
+    fields_.begin(tile_, problem_, scratch_.query);
     tolerance_ = static_cast<float>(0.999 * problem_.limits.tolerance);
     farthest_ = static_cast<float>(0.5 * problem_.limits.size);
     polisher_.stop_below(tolerance_ / 20);
@@ -264,16 +260,15 @@ class PairExplorer {
     fields_.gradients(points_, open_.count);
     evaluations_ += static_cast<uint32_t>(open_.count);
     FarDistances far;
-    const Kernels& kernels = *tile_.kernels;
-    if (!fields_.a->facts.convex) {
+    if (!fields_.a.facts().convex) {
       far.a = regions_.far_a;
       aim(fields_.frame, points_.a, points_.gradient_a, far.a, open_, far_points_.a);
-      kernels.value(*fields_.a, far_points_.a, open_.count, far_points_.value_a, fields_.scratch_a);
+      fields_.a.values(far_points_.a, open_.count, far_points_.value_a);
     }
-    if (!fields_.b->facts.convex) {
+    if (!fields_.b.facts().convex) {
       far.b = regions_.far_b;
       aim(fields_.frame, points_.b, points_.gradient_b, far.b, open_, far_points_.b);
-      kernels.value(*fields_.b, far_points_.b, open_.count, far_points_.value_b, fields_.scratch_b);
+      fields_.b.values(far_points_.b, open_.count, far_points_.value_b);
     }
     if (far.a != nullptr || far.b != nullptr) evaluations_ += static_cast<uint32_t>(open_.count);
     join_bounds(fields_.frame, points_, far, far_points_, open_);

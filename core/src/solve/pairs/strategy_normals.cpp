@@ -39,8 +39,8 @@ class Renewal {
     for (NormalColumns* columns : {&a_, &b_}) columns->take(arena_, count_, problem_.dimension);
     place(0, tile_.columns.point + row * dimension());
     for (std::size_t k = 0; k < kept; ++k) place(1 + k, tile_.contacts.point + slot(row, k) * dimension());
-    evaluate(*problem_.a, a_);
-    evaluate(*problem_.b, b_);
+    evaluate(*problem_.a, 0, a_);
+    evaluate(*problem_.b, 1, b_);
     for (std::size_t i = 0; i < count_; ++i) {
       write(row, i);
       tile_.columns.evaluations[row] += std::max(a_.evaluations[i], b_.evaluations[i]);
@@ -61,11 +61,14 @@ class Renewal {
     }
   }
 
-  void evaluate(const Tape& tape, const NormalColumns& columns) {
+  void evaluate(const Tape& whole, std::size_t which, const NormalColumns& columns) {
+    NearField field;
+    field.begin(*tile_.kernels, whole, tile_.near[which], arena_);
+    const Tape& tape = field.at(columns.points, count_);
     const GradientRule rule = rule_of(tape, strategy_of(*tile_.options), tile_.options->gradient_offset);
     const GradientColumns asked{
         .points = columns.points, .count = count_, .gradient = columns.gradient, .evaluations = columns.evaluations};
-    evaluate_gradient(rule, tape, *tile_.kernels, asked, arena_.take<float>(scratch_floats(tape)));
+    evaluate_gradient(rule, tape, *tile_.kernels, asked, field.scratch());
   }
 
   void write(std::size_t row, std::size_t i) const {
@@ -93,7 +96,7 @@ class Renewal {
 
 void renew_normals(const PairTile& tile, PairScratch& scratch) {
   Renewal renewal(tile, scratch);
-  for (std::size_t i = 0; i < tile.count; ++i) renewal.run(tile.begin + i);
+  for (std::size_t i = 0; i < tile.count; ++i) renewal.run(tile.row(i));
 }
 
 }  // namespace thalweg
