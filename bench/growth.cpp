@@ -2,14 +2,12 @@
 // SPDX-License-Identifier: MIT
 //
 // What growing costs, all sizes by turns within each round: growth/primitives, /queries, /streaming and /threads.
-//   ns_at_<x>        time per query at size x, the median of the rounds
-//   exponent         b of the fitted time = a x^b: of a query for primitives and threads, of a whole batch otherwise
+//   ns_at_<x>, exponent   see growth.h; the exponent is of a query for primitives and threads, of a batch otherwise
 //   processor_time_added  of growth/threads: what all threads together use beyond one thread's, as a share of it
 //   serial_fraction  of growth/threads, after A. Karp and H. Flatt, "Measuring parallel processor performance" (1990)
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -20,53 +18,18 @@
 #include <thread>
 #include <vector>
 
+#include "growth.h"
 #include "oracle.h"
 #include "rounds.h"
 #include "thalweg/batch.h"
-#include "thalweg/ops.h"
 #include "workload.h"
 
 namespace thalweg::bench {
 namespace {
 
-constexpr int kRounds = 5;
 /// Queries for each primitive of growth/primitives, and where they are few.
 constexpr std::size_t kDense = 256;
 constexpr std::size_t kSparse = 16;
-
-/// Times at a row of sizes.
-class Growth {
- public:
-  explicit Growth(std::vector<std::size_t> sizes) : sizes_(std::move(sizes)), seconds_(sizes_.size()) {}
-
-  [[nodiscard]] const std::vector<std::size_t>& sizes() const { return sizes_; }
-  void add(std::size_t i, double seconds) { seconds_[i].add(seconds); }
-  [[nodiscard]] double median(std::size_t i) const { return seconds_[i].median(); }
-
-  /// b of the least squares fit of log time = log a + b log size.
-  [[nodiscard]] double exponent() const {
-    double x = 0, y = 0, xx = 0, xy = 0;
-    for (std::size_t i = 0; i < sizes_.size(); ++i) {
-      const double size = std::log(static_cast<double>(sizes_[i])), time = std::log(median(i));
-      x += size, y += time, xx += size * size, xy += size * time;
-    }
-    const auto n = static_cast<double>(sizes_.size());
-    const double variance = n * xx - x * x;
-    return variance > 0 ? (n * xy - x * y) / variance : 0;
-  }
-
- private:
-  std::vector<std::size_t> sizes_;
-  std::vector<Samples> seconds_;
-};
-
-void finish(benchmark::State& state, const Growth& growth, const std::vector<std::size_t>& queries) {
-  for (std::size_t i = 0; i < growth.sizes().size(); ++i) {
-    state.counters["ns_at_" + std::to_string(growth.sizes()[i])] =
-        1e9 * growth.median(i) / static_cast<double>(queries[i]);
-  }
-  state.counters["exponent"] = growth.exponent();
-}
 
 /// Triangles against a tape, with the columns that most callers take.
 struct Verdicts {
@@ -86,22 +49,6 @@ struct Verdicts {
     benchmark::DoNotOptimize(collide_triangles(*tape, {rows->data(), count}, {}, columns, {.threads = threads})->rows);
   }
 };
-
-/// `count` small primitives on a jittered grid of cells of 100 by 100 units: the density stays whatever the count.
-Shape scattered(std::size_t count) {
-  const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count))));
-  std::vector<Shape> all;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t column = i % side, row = i / side;
-    const std::uint64_t turn = (i + 1) * 0x9e3779b97f4a7c15U;
-    const double jitter_x = static_cast<double>(turn >> 40 & 0xff) / 8;
-    const double jitter_y = static_cast<double>(turn >> 48 & 0xff) / 8;
-    const Vec2 at{100 * static_cast<double>(column) + jitter_x, 100 * static_cast<double>(row) + jitter_y};
-    const Shape one = i % 3 == 0 ? circle(25) : i % 3 == 1 ? box(Vec2{20, 30}).rotate(0.4) : star(35, 5, 3);
-    all.push_back(one.translate(at));
-  }
-  return union_(std::move(all));
-}
 
 /// Triangles of the same size everywhere, centres uniform over the scene.
 std::vector<float> triangles_over(const Shape& shape, std::size_t count) {
@@ -145,7 +92,7 @@ struct Scattered {
 
   /// Returns what is wrong, or nothing.
   std::string make(std::size_t size, std::size_t triangles) {
-    const Shape scene = scattered(size);
+    const Shape scene = scattered_scene(size);
     auto compiled = compile(scene);
     if (!compiled) return to_string(compiled.error());
     tape = std::move(compiled).value();
@@ -340,16 +287,10 @@ void threads(benchmark::State& state) {
 }  // namespace
 
 void register_growth_cases() {
-  const auto add = [](const char* name, auto run) {
-    benchmark::RegisterBenchmark(name, run)
-        ->UseManualTime()
-        ->Unit(benchmark::kMillisecond)
-        ->Iterations(smoke() ? 1 : kRounds);
-  };
-  add("growth/primitives", primitives);
-  add("growth/queries", queries);
-  add("growth/streaming", streaming);
-  add("growth/threads", threads);
+  add_growth_case("growth/primitives", primitives);
+  add_growth_case("growth/queries", queries);
+  add_growth_case("growth/streaming", streaming);
+  add_growth_case("growth/threads", threads);
 }
 
 }  // namespace thalweg::bench

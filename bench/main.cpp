@@ -33,6 +33,7 @@ int main(int count, char** arguments) {
   thalweg::bench::register_evaluate_cases();
   thalweg::bench::register_triangle_cases();
   thalweg::bench::register_growth_cases();
+  thalweg::bench::register_pair_growth_cases();
   thalweg::bench::register_startup_cases();
   thalweg::bench::register_vm_cases();
   thalweg::bench::register_pair_cases();

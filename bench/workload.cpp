@@ -3,9 +3,12 @@
 #include "workload.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
+
+#include "thalweg/ops.h"
 
 namespace thalweg::bench {
 namespace {
@@ -45,6 +48,21 @@ std::optional<LoadedScene> load_scene(std::string_view name, std::string& error)
     return std::nullopt;
   }
   return LoadedScene{scene->shape, std::move(tape).value()};
+}
+
+Shape scattered_scene(std::size_t count) {
+  const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count))));
+  std::vector<Shape> all;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t column = i % side, row = i / side;
+    const std::uint64_t turn = (i + 1) * 0x9e3779b97f4a7c15U;
+    const double jitter_x = static_cast<double>(turn >> 40 & 0xff) / 8;
+    const double jitter_y = static_cast<double>(turn >> 48 & 0xff) / 8;
+    const Vec2 at{100 * static_cast<double>(column) + jitter_x, 100 * static_cast<double>(row) + jitter_y};
+    const Shape one = i % 3 == 0 ? circle(25) : i % 3 == 1 ? box(Vec2{20, 30}).rotate(0.4) : star(35, 5, 3);
+    all.push_back(one.translate(at));
+  }
+  return union_(std::move(all));
 }
 
 std::vector<float> picture_points(std::size_t count) {

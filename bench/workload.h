@@ -24,6 +24,9 @@ struct LoadedScene {
 /// Reads and compiles bench/scenes/<name>.json; on failure `error` says why.
 [[nodiscard]] std::optional<LoadedScene> load_scene(std::string_view name, std::string& error);
 
+/// `count` small primitives on a jittered grid of cells of 100 by 100 units: the density stays whatever the count.
+[[nodiscard]] Shape scattered_scene(std::size_t count);
+
 /// Rows (N,2), uniform over the picture.
 [[nodiscard]] std::vector<float> picture_points(std::size_t count);
 /// Rows (N,3,2): centres uniform over the picture, each vertex offset uniformly by up to 60 units along each axis.
@@ -41,6 +44,7 @@ void refuse(benchmark::State& state, const std::string& why);
 void register_evaluate_cases();
 void register_triangle_cases();
 void register_growth_cases();
+void register_pair_growth_cases();
 void register_startup_cases();
 void register_vm_cases();
 void register_pair_cases();
