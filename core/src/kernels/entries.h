@@ -22,5 +22,7 @@ namespace thalweg {
 [[nodiscard]] CircleSolver certify_circles_entry(std::int64_t target);
 [[nodiscard]] PairSolver certify_pairs_entry(std::int64_t target);
 [[nodiscard]] DistanceSolver certify_distances_entry(std::int64_t target);
+[[nodiscard]] TriangleSweeper sweep_triangles_entry(std::int64_t target);
+[[nodiscard]] BallSweeper sweep_balls_entry(std::int64_t target);
 
 }  // namespace thalweg

@@ -113,6 +113,9 @@ struct TileScratch;
 struct PairTile;
 struct PairScratch;
 struct DistanceTile;
+struct TriangleSweepTile;
+struct BallSweepTile;
+struct SweepScratch;
 struct QueryTile;
 struct QueryState;
 class Arena;
@@ -122,6 +125,8 @@ using TriangleSolver = void (*)(const TriangleTile& tile, TileScratch& scratch);
 using CircleSolver = void (*)(const CircleTile& tile, TileScratch& scratch);
 using PairSolver = void (*)(const PairTile& tile, PairScratch& scratch);
 using DistanceSolver = void (*)(const DistanceTile& tile, PairScratch& scratch);
+using TriangleSweeper = void (*)(const TriangleSweepTile& tile, SweepScratch& scratch);
+using BallSweeper = void (*)(const BallSweepTile& tile, SweepScratch& scratch);
 
 struct Kernels {
   ValueKernel value = nullptr;
@@ -136,6 +141,8 @@ struct Kernels {
   CircleSolver certify_circles = nullptr;
   PairSolver certify_pairs = nullptr;
   DistanceSolver certify_distances = nullptr;
+  TriangleSweeper sweep_triangles = nullptr;
+  BallSweeper sweep_balls = nullptr;
 };
 
 }  // namespace thalweg

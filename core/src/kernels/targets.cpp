@@ -42,7 +42,9 @@ TargetList make_targets() {
                             .certify_triangles = certify_triangles_entry(target),
                             .certify_circles = certify_circles_entry(target),
                             .certify_pairs = certify_pairs_entry(target),
-                            .certify_distances = certify_distances_entry(target)});
+                            .certify_distances = certify_distances_entry(target),
+                            .sweep_triangles = sweep_triangles_entry(target),
+                            .sweep_balls = sweep_balls_entry(target)});
     list.targets.push_back({.name = hwy::TargetName(target),
                             .fused_multiply_add = fuses_multiply_add(target),
                             .kernels = &list.kernels.back()});

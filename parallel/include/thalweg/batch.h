@@ -14,6 +14,7 @@
 #include "thalweg/pairs.h"
 #include "thalweg/query.h"
 #include "thalweg/simd.h"
+#include "thalweg/sweep.h"
 #include "thalweg/tape.h"
 
 namespace thalweg {
@@ -104,6 +105,15 @@ struct GridColumns {
 /// How far shapes are apart, one pose a row; see thalweg/distance.h. Refuses two unbounded shapes, and formulas.
 [[nodiscard]] Result<Summary> measure_distances(const PairQueries& queries, const DistanceOptions& options,
                                                 const DistanceColumns& columns, const Execution& execution = {});
+
+/// When moving triangles first meet the shape; see thalweg/sweep.h. Refuses formulas, which have no Lipschitz constant.
+[[nodiscard]] Result<Summary> sweep_triangles(const Tape& tape, const SweepQueries& queries,
+                                              const SweepOptions& options, const SweepColumns& columns,
+                                              const Execution& execution = {});
+
+/// The same of circles (2D) or spheres (3D), by the motion of the scene.
+[[nodiscard]] Result<Summary> sweep_circles(const Tape& tape, const SweepQueries& queries, const SweepOptions& options,
+                                            const SweepColumns& columns, const Execution& execution = {});
 
 /// The tolerance that stands for CollideOptions::tolerance = 0.
 [[nodiscard]] double default_tolerance(const Tape& tape);
