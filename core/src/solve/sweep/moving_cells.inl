@@ -22,6 +22,8 @@ struct MovingWave {
   float* centre[3] = {};
   float* reach = nullptr;
   float* edges[9] = {};
+  float* middle[3] = {};    ///< of balls: their centres from the cells'
+  float* radius = nullptr;  ///< of balls
   float* gradient[3] = {};
   float* value = nullptr;
   float* speed[3] = {};   ///< of the centre
@@ -36,10 +38,10 @@ struct MovingWave {
     for (float*& column : edges) column = arena.take<float>(room);
     for (float*& column : speeds) column = arena.take<float>(room);
     for (size_t axis = 0; axis < 3; ++axis) {
-      for (float** column : {&centre[axis], &gradient[axis], &speed[axis], &probe[axis]})
+      for (float** column : {&centre[axis], &gradient[axis], &speed[axis], &probe[axis], &middle[axis]})
         *column = arena.take<float>(room);
     }
-    for (float** column : {&reach, &value, &rate, &probe_value, &probe_uv[0], &probe_uv[1]}) {
+    for (float** column : {&reach, &radius, &value, &rate, &probe_value, &probe_uv[0], &probe_uv[1]}) {
       *column = arena.take<float>(room);
     }
   }
@@ -226,9 +228,11 @@ struct MovingBall {
       const auto at = hn::Mul(offset[axis], radius);
       const auto moved = hn::Mul(at, inward);
       hn::StoreU(hn::Add(frame.part[0][axis], moved), d, wave.centre[axis] + i);
+      hn::StoreU(hn::Neg(moved), d, wave.middle[axis] + i);
       hn::StoreU(hn::Add(half, hn::Abs(hn::Sub(at, moved))), d, wave.edges[axis] + i);
       speed[axis] = frame.change[0][axis];
     }
+    hn::StoreU(radius, d, wave.radius + i);
     Motion<D, kParts>::add_turn(frame, frame.part[0], speed);
     for (size_t axis = 0; axis < D; ++axis) hn::StoreU(speed[axis], d, wave.speed[axis] + i);
     // A box that misses the ball holds no point of the query.

@@ -150,7 +150,6 @@ class SecondLooks {
   HWY_INLINE void clear_by_far_points(const SweepTile& tile, const Moved& motion, const Looks& looks,
                                       const MovingWave& wave, size_t i) {
     const F32 d;
-    const auto zero = hn::Zero(d);
     const auto far_value = hn::LoadU(d, far_value_ + i);
     const auto asked = hn::Gt(far_value, hn::Set(d, -std::numeric_limits<float>::infinity()));
     if (hn::AllFalse(d, asked)) return;
@@ -161,55 +160,103 @@ class SecondLooks {
     const auto of_tape = hn::Set(d, static_cast<float>(tile.tape->search_slack.b * (1 + 1e-6)));
     const auto rounding = hn::MulAdd(hn::MulAdd(lipschitz, hn::Set(d, 0x1p-18F), of_tape), far, slack);
     const auto radius = hn::Div(hn::Sub(far_value, rounding), hn::Mul(lipschitz, hn::Set(d, 1.000001F)));
-    V32 offset[Cell::kVertices][kAxes], speed[Cell::kVertices][kAxes], square[Cell::kVertices];
-    auto most = zero;
-    for (size_t k = 0; k < Cell::kVertices; ++k) {
-      Cell::vertex(wave, i, k, offset[k], speed[k]);
-      square[k] = zero;
-      for (size_t axis = 0; axis < kAxes; ++axis) {
-        offset[k][axis] = hn::Sub(offset[k][axis], hn::LoadU(d, step_[axis] + i));
-        square[k] = hn::MulAdd(offset[k][axis], offset[k][axis], square[k]);
-      }
-      most = hn::Max(most, square[k]);
-    }
-    const auto room = hn::Sub(radius, hn::Sqrt(most));
-    const auto clears = hn::And(asked, hn::Gt(room, zero));
-    // A quarter of the room is for paths that bend.
     const auto bend = gather(motion.bend(), looks.query + i);
-    const auto bends = hn::Gt(bend, zero);
-    const auto least_radius = hn::IfThenElse(bends, hn::NegMulAdd(hn::Set(d, 0.25F), room, radius), radius);
-    auto after = hn::Set(d, 2.0F);
-    const auto kept = hn::IfThenElse(hn::And(bends, clears), hn::Div(room, hn::Add(bend, bend)), zero);
-    after = hn::IfThenElse(bends, hn::Min(after, hn::Sqrt(kept)), after);
-    auto before = hn::Neg(after);
-    for (size_t k = 0; k < Cell::kVertices; ++k) {
-      times_within(offset[k], speed[k], hn::NegMulAdd(least_radius, least_radius, square[k]), before, after);
+    auto room = take(looks, i, asked, lipschitz, clear_of_corners(wave, i, radius, bend));
+    if constexpr (Cell::kIsBall) {
+      room = hn::Max(room, take(looks, i, asked, lipschitz, clear_of_ball(wave, i, radius, bend)));
     }
-    const auto own = hn::Set(d, 0.99999F);
-    before = hn::Mul(before, own);
-    after = hn::Mul(after, own);
-    const auto old_after = hn::LoadU(d, looks.after + i), old_before = hn::LoadU(d, looks.before + i);
-    // Both intervals hold the time itself; one that does not is no interval.
-    const auto first = hn::Gt(zero, old_after);
-    before = hn::IfThenElse(first, before, hn::Min(before, old_before));
-    after = hn::IfThenElse(first, after, hn::Max(after, old_after));
-    hn::StoreU(hn::IfThenElse(clears, before, old_before), d, looks.before + i);
-    hn::StoreU(hn::IfThenElse(clears, after, old_after), d, looks.after + i);
-    const auto gap = hn::LoadU(d, looks.gap + i);
-    const auto found = hn::Mul(room, lipschitz);
-    hn::StoreU(hn::IfThenElse(asked, hn::Max(gap, found), gap), d, looks.gap + i);
-    // Nearer where half of the value was lost, further where not.
+    // Further where little was lost of the value or, of a triangle, no more than twice the r / (2 factor) of a straight
+    // field; else nearer. Corners of boxes lose more than that where they stick out of their ball.
     const auto factor = hn::LoadU(d, looks.far_factor + i);
-    const auto value = hn::Sub(hn::LoadU(d, wave.value + i), slack);
-    const auto good = hn::Gt(hn::Add(found, found), value);
+    const auto seen = hn::Min(hn::LoadU(d, wave.value + i), hn::LoadU(d, wave.probe_value + i));
+    const auto lost = hn::NegMulAdd(room, lipschitz, hn::Sub(seen, slack));
+    const auto straight = hn::Lt(hn::Mul(lost, factor), hn::Mul(lipschitz, hn::Abs(hn::LoadU(d, wave.reach + i))));
+    const auto little = hn::Gt(hn::Mul(hn::Add(room, room), lipschitz), hn::Sub(hn::LoadU(d, wave.value + i), slack));
+    const auto good = Cell::kIsBall ? little : hn::Or(straight, little);
     const auto next = hn::IfThenElse(good, hn::Min(hn::Mul(factor, hn::Set(d, 1.5F)), hn::Set(d, kMostFactor)),
                                      hn::Max(hn::Mul(factor, hn::Set(d, 0.5F)), hn::Set(d, 1.0F)));
     hn::StoreU(hn::IfThenElse(asked, next, factor), d, looks.far_factor + i);
   }
 
-  /// Narrows [before, after] to the times at which offset + t speed is within the radius: `deep` is |offset|^2 less the
+  /// How far within a far point's radius a cell is, and for how long it stays there; of no use where room <= 0.
+  struct Clear {
+    V32 room, before, after;
+  };
+
+  /// Adds what a far point says to what is known. Returns the room.
+  static HWY_INLINE V32 take(const Looks& looks, size_t i, M32 asked, V32 lipschitz, const Clear& clear) {
+    const F32 d;
+    const auto own = hn::Set(d, 0.99999F);
+    const auto old_before = hn::LoadU(d, looks.before + i), old_after = hn::LoadU(d, looks.after + i);
+    const auto before = hn::Mul(clear.before, own), after = hn::Mul(clear.after, own);
+    const auto use = hn::And(asked, hn::Gt(clear.room, hn::Zero(d)));
+    // Two intervals that hold the time itself are one; before > after is none.
+    const auto none = hn::Gt(hn::Zero(d), old_after);
+    const auto least = hn::IfThenElse(none, before, hn::Min(before, old_before));
+    const auto most = hn::IfThenElse(none, after, hn::Max(after, old_after));
+    hn::StoreU(hn::IfThenElse(use, least, old_before), d, looks.before + i);
+    hn::StoreU(hn::IfThenElse(use, most, old_after), d, looks.after + i);
+    const auto gap = hn::LoadU(d, looks.gap + i);
+    hn::StoreU(hn::IfThenElse(asked, hn::Max(gap, hn::Mul(clear.room, lipschitz)), gap), d, looks.gap + i);
+    return clear.room;
+  }
+
+  /// A quarter of the room is for paths that bend, which limits the time.
+  static HWY_INLINE Clear with_bends(V32 room, V32 bend, V32& radius) {
+    const F32 d;
+    const auto bends = hn::Gt(bend, hn::Zero(d));
+    const auto used = hn::Max(room, hn::Zero(d));
+    radius = hn::IfThenElse(bends, hn::NegMulAdd(hn::Set(d, 0.25F), used, radius), radius);
+    const auto twice = hn::IfThenElse(bends, hn::Add(bend, bend), hn::Set(d, 1.0F));
+    const auto longest = hn::Set(d, 2.0F);
+    const auto time = hn::IfThenElse(bends, hn::Min(longest, hn::Sqrt(hn::Div(used, twice))), longest);
+    return {room, hn::Neg(time), time};
+  }
+
+  HWY_INLINE Clear clear_of_corners(const MovingWave& wave, size_t i, V32 radius, V32 bend) const {
+    const F32 d;
+    V32 offset[Cell::kVertices][kAxes], speed[Cell::kVertices][kAxes], square[Cell::kVertices];
+    auto most = hn::Zero(d);
+    for (size_t k = 0; k < Cell::kVertices; ++k) {
+      Cell::vertex(wave, i, k, offset[k], speed[k]);
+      square[k] = to_far_point(i, offset[k]);
+      most = hn::Max(most, square[k]);
+    }
+    Clear clear = with_bends(hn::Sub(radius, hn::Sqrt(most)), bend, radius);
+    for (size_t k = 0; k < Cell::kVertices; ++k) {
+      times_within(offset[k], speed[k], hn::NegMulAdd(radius, radius, square[k]), clear);
+    }
+    return clear;
+  }
+
+  /// No point of a ball is further from a far point than its centre and radius together.
+  HWY_INLINE Clear clear_of_ball(const MovingWave& wave, size_t i, V32 radius, V32 bend) const {
+    const F32 d;
+    V32 offset[kAxes], speed[kAxes];
+    for (size_t axis = 0; axis < kAxes; ++axis) {
+      offset[axis] = hn::LoadU(d, wave.middle[axis] + i);
+      speed[axis] = hn::LoadU(d, wave.speed[axis] + i);
+    }
+    const auto square = to_far_point(i, offset);
+    radius = hn::Sub(radius, hn::LoadU(d, wave.radius + i));
+    Clear clear = with_bends(hn::Sub(radius, hn::Sqrt(square)), bend, radius);
+    times_within(offset, speed, hn::NegMulAdd(radius, radius, square), clear);
+    return clear;
+  }
+
+  /// A point is told from the lanes' far points instead of from the cells' centres. Returns its distance squared.
+  HWY_INLINE V32 to_far_point(size_t i, V32* offset) const {
+    auto square = hn::Zero(F32());
+    for (size_t axis = 0; axis < kAxes; ++axis) {
+      offset[axis] = hn::Sub(offset[axis], hn::LoadU(F32(), step_[axis] + i));
+      square = hn::MulAdd(offset[axis], offset[axis], square);
+    }
+    return square;
+  }
+
+  /// Narrows the times to those at which offset + t speed is within the radius: `deep` is |offset|^2 less the
   /// radius squared, below 0.
-  static HWY_INLINE void times_within(const V32* offset, const V32* speed, V32 deep, V32& before, V32& after) {
+  static HWY_INLINE void times_within(const V32* offset, const V32* speed, V32 deep, Clear& clear) {
     const F32 d;
     auto square = hn::Set(d, 1e-30F), along = hn::Zero(d);
     for (size_t axis = 0; axis < kAxes; ++axis) {
@@ -222,8 +269,8 @@ class SecondLooks {
     const auto sum = hn::Add(hn::Abs(along), root);
     const auto near = hn::Div(hn::Neg(deep), hn::Max(sum, hn::Set(d, 1e-30F)));
     const auto away = hn::Div(sum, square);
-    after = hn::Min(after, hn::IfThenElse(outward, near, away));
-    before = hn::Max(before, hn::Neg(hn::IfThenElse(outward, away, near)));
+    clear.after = hn::Min(clear.after, hn::IfThenElse(outward, near, away));
+    clear.before = hn::Max(clear.before, hn::Neg(hn::IfThenElse(outward, away, near)));
   }
 
   size_t count_ = 0, far_ = 0;  ///< far points come first
