@@ -20,7 +20,7 @@ class Arguments(CliCase):
         self.eval = ("eval", "circle.json", "--points", "points.npy")
 
     def test_a_missing_command_is_refused_with_the_list(self):
-        self.assertIn("info, ops, eval, collide, distance, render", self.refuse())
+        self.assertIn("info, ops, eval, collide, distance, sweep, render", self.refuse())
 
     def test_an_unknown_command_is_named(self):
         self.assertIn("'bogus'", self.refuse("bogus"))

@@ -107,22 +107,19 @@ struct Run {
 };
 
 Json report_json(const PairRequest& request, const Globals& globals, const Run& run, std::size_t contacts) {
-  const auto& by = run.summary.by_status;
-  Json json = {
-      {"command", "collide"},
-      {"scene", request.scene},
-      {"with", request.with},
-      {"queries", "poses"},
-      {"rows", run.summary.rows},
-      {"status",
-       {{"separated", by[0]}, {"overlapping", by[1]}, {"touching", by[2]}, {"undecided", by[3]}, {"bad_row", by[4]}}},
-      {"bad_rows", by[4]},
-      {"evaluations", run.summary.evaluations},
-      {"method", name(request.options.method)},
-      {"goal", name(request.options.goal)},
-      {"tolerance", run.tolerance},
-      {"region", run.region},
-      {"budget", request.options.budget}};
+  Json json = {{"command", "collide"},
+               {"scene", request.scene},
+               {"with", request.with},
+               {"queries", "poses"},
+               {"rows", run.summary.rows},
+               {"status", statuses_json(run.summary)},
+               {"bad_rows", run.summary.by_status[4]},
+               {"evaluations", run.summary.evaluations},
+               {"method", name(request.options.method)},
+               {"goal", name(request.options.goal)},
+               {"tolerance", run.tolerance},
+               {"region", run.region},
+               {"budget", request.options.budget}};
   if (request.wants_contacts) json["contacts"] = contacts;
   add_run(json, globals, run.summary.rows, run.seconds);
   json["output"] = request.output;
@@ -130,12 +127,9 @@ Json report_json(const PairRequest& request, const Globals& globals, const Run& 
 }
 
 std::string report_text(const PairRequest& request, const Globals& globals, const Run& run, std::size_t contacts) {
-  constexpr std::array<std::string_view, 5> kLabels = {"separated", "overlapping", "touching", "undecided", "bad rows"};
   Sheet sheet;
   sheet.add("poses", grouped(run.summary.rows));
-  for (std::size_t i = 0; i < kLabels.size(); ++i) {
-    sheet.add(fmt::format("  {}", kLabels[i]), fmt::format("{:>12}", grouped(run.summary.by_status[i])));
-  }
+  add_statuses(sheet, run.summary);
   if (request.wants_contacts) sheet.add("contacts", grouped(contacts));
   sheet.add("method",
             fmt::format("{}, goal {}, tolerance {:.4g}, region {:.4g}, budget {}", name(request.options.method),

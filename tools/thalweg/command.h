@@ -44,6 +44,7 @@ Command add_ops(CLI::App& app, const Globals& globals);
 Command add_eval(CLI::App& app, const Globals& globals);
 Command add_collide(CLI::App& app, const Globals& globals);
 Command add_distance(CLI::App& app, const Globals& globals);
+Command add_sweep(CLI::App& app, const Globals& globals);
 Command add_render(CLI::App& app, const Globals& globals);
 Command add_profile(CLI::App& app, const Globals& globals);
 Command add_stress(CLI::App& app, const Globals& globals);

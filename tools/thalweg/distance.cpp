@@ -3,7 +3,6 @@
 //
 // `thalweg distance SCENE --with SCENE2 --poses Q`: how far a second scene at many poses is from the scene.
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -65,31 +64,25 @@ struct Run {
 };
 
 Json report_json(const Request& request, const Globals& globals, const Run& run) {
-  const auto& by = run.summary.by_status;
-  Json json = {
-      {"command", "distance"},
-      {"scene", request.scene},
-      {"with", request.with},
-      {"rows", run.summary.rows},
-      {"status",
-       {{"separated", by[0]}, {"overlapping", by[1]}, {"touching", by[2]}, {"undecided", by[3]}, {"bad_row", by[4]}}},
-      {"bad_rows", by[4]},
-      {"converged", run.converged},
-      {"evaluations", run.summary.evaluations},
-      {"tolerance", run.tolerance},
-      {"budget", request.options.budget}};
+  Json json = {{"command", "distance"},
+               {"scene", request.scene},
+               {"with", request.with},
+               {"rows", run.summary.rows},
+               {"status", statuses_json(run.summary)},
+               {"bad_rows", run.summary.by_status[4]},
+               {"converged", run.converged},
+               {"evaluations", run.summary.evaluations},
+               {"tolerance", run.tolerance},
+               {"budget", request.options.budget}};
   add_run(json, globals, run.summary.rows, run.seconds);
   json["output"] = request.output;
   return json;
 }
 
 std::string report_text(const Request& request, const Globals& globals, const Run& run) {
-  constexpr std::array<std::string_view, 5> kLabels = {"separated", "overlapping", "touching", "undecided", "bad rows"};
   Sheet sheet;
   sheet.add("poses", grouped(run.summary.rows));
-  for (std::size_t i = 0; i < kLabels.size(); ++i) {
-    sheet.add(fmt::format("  {}", kLabels[i]), fmt::format("{:>12}", grouped(run.summary.by_status[i])));
-  }
+  add_statuses(sheet, run.summary);
   sheet.add("converged", grouped(run.converged));
   sheet.add("bracket", fmt::format("tolerance {:.4g}, budget {}", run.tolerance, request.options.budget));
   sheet.add("evaluations", grouped(run.summary.evaluations));

@@ -64,12 +64,21 @@ Array read_triangles(const std::string& path, int dimension) {
   return read_rows(path, {{3, static_cast<std::size_t>(dimension)}, "triangles"});
 }
 
-Array read_poses(const std::string& path, int dimension) {
-  const RowShape row{{dimension == 2 ? std::size_t{3} : std::size_t{7}}, "poses"};
+namespace {
+
+/// Rows of a translation and a turn.
+Array read_placements(const std::string& path, int dimension, std::string_view noun) {
+  const RowShape row{{dimension == 2 ? std::size_t{3} : std::size_t{7}}, noun};
   const std::string name = input_name(path);
   const std::string bytes = read_input(path);
   if (!looks_like_npy(bytes)) refuse(name, "format", "NPY", "another format");
   return parse_npy_rows(bytes, row, name);
 }
+
+}  // namespace
+
+Array read_poses(const std::string& path, int dimension) { return read_placements(path, dimension, "poses"); }
+
+Array read_motions(const std::string& path, int dimension) { return read_placements(path, dimension, "motions"); }
 
 }  // namespace thalweg::cli

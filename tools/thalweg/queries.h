@@ -15,6 +15,7 @@ namespace thalweg::cli {
 [[nodiscard]] Array read_circles(const std::string& path, int dimension);    ///< (N, d + 1): centre, radius
 [[nodiscard]] Array read_triangles(const std::string& path, int dimension);  ///< (N, 3, d)
 [[nodiscard]] Array read_poses(const std::string& path, int dimension);      ///< (N, 3), or (N, 7) in 3D
+[[nodiscard]] Array read_motions(const std::string& path, int dimension);    ///< the same
 
 /// An NPY array of rows of this shape, held in memory.
 [[nodiscard]] Array parse_npy_rows(std::string_view bytes, const RowShape& row, const std::string& name);

@@ -77,6 +77,18 @@ int thread_count(const Globals& globals) {
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
+Json statuses_json(const Summary& summary) {
+  const auto& by = summary.by_status;
+  return {{"separated", by[0]}, {"overlapping", by[1]}, {"touching", by[2]}, {"undecided", by[3]}, {"bad_row", by[4]}};
+}
+
+void add_statuses(Sheet& sheet, const Summary& summary) {
+  constexpr std::array<std::string_view, 5> kLabels = {"separated", "overlapping", "touching", "undecided", "bad rows"};
+  for (std::size_t i = 0; i < kLabels.size(); ++i) {
+    sheet.add(fmt::format("  {}", kLabels[i]), fmt::format("{:>12}", grouped(summary.by_status[i])));
+  }
+}
+
 void add_run(Json& json, const Globals& globals, std::size_t rows, double seconds) {
   json["elapsed_seconds"] = seconds;
   json["rows_per_second"] = seconds > 0 ? static_cast<double>(rows) / seconds : 0;

@@ -61,6 +61,10 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// How many rows have each status.
+[[nodiscard]] Json statuses_json(const Summary& summary);
+void add_statuses(Sheet& sheet, const Summary& summary);
+
 /// What any batch has in common: rows, seconds, rate, threads, target.
 void add_run(Json& json, const Globals& globals, std::size_t rows, double seconds);
 [[nodiscard]] std::string run_text(const Globals& globals, std::size_t rows, double seconds, std::string_view noun);
