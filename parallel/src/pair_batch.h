@@ -49,14 +49,6 @@ struct PairMemory {
   }
 };
 
-/// Room for `count` entries, where they are wanted.
-template <class T>
-T* room(std::vector<T>& memory, T* asked, std::size_t count) {
-  if (asked != nullptr || count == 0) return asked;
-  if (memory.size() < count) memory.resize(count);
-  return memory.data();
-}
-
 /// Answers all rows.
 [[nodiscard]] Summary run_pairs(const PairBatch& batch, PairMemory& memory, const Execution& execution);
 

@@ -5,6 +5,7 @@
 // ever ran at once, so that a warm call allocates nothing.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -48,5 +49,13 @@ class Reused {
 
   std::unique_ptr<T> object_;
 };
+
+/// Room for `count` entries that the caller did not bring.
+template <class T>
+T* room(std::vector<T>& memory, T* asked, std::size_t count) {
+  if (asked != nullptr || count == 0) return asked;
+  if (memory.size() < count) memory.resize(count);
+  return memory.data();
+}
 
 }  // namespace thalweg

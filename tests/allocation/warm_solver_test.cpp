@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
 #include <cstdlib>
 #include <new>
 #include <ostream>
@@ -251,6 +252,29 @@ TEST(WarmBatchOfPairsNearALongTape, AllocatesNothing) {
   };
   for (int round = 0; round < 3; ++round) run();
   EXPECT_EQ(allocations_of(run), 0U);
+}
+
+TEST(WarmBatchOfSweeps, AllocatesNothing) {
+  constexpr std::size_t kCount = 600;
+  oracle::Random random(9);
+  std::vector<float> rows(6 * kCount), ends(6 * kCount), motions(3 * kCount), point(2 * kCount);
+  for (auto* numbers : {&rows, &ends, &motions}) {
+    for (float& x : *numbers) x = static_cast<float>(random.uniform(-4, 4));
+  }
+  for (std::size_t i = 0; i < kCount; ++i) rows[3 * i + 2] = std::abs(rows[3 * i + 2]) / 8;
+  SweepColumns columns;
+  columns.point = point.data();
+  for (const Shape& shape : {flat_and_round(), many_discs()}) {
+    const Tape tape = std::move(compile(shape)).value();
+    const auto run = [&] {
+      const SweepQueries triangles{.rows = rows.data(), .ends = ends.data(), .count = kCount};
+      const SweepQueries circles{.rows = rows.data(), .motions = motions.data(), .count = kCount};
+      static_cast<void>(sweep_triangles(tape, triangles, {}, columns, {.threads = 1}));
+      static_cast<void>(sweep_circles(tape, circles, {}, columns, {.threads = 1}));
+    };
+    for (int round = 0; round < 3; ++round) run();
+    EXPECT_EQ(allocations_of(run), 0U) << tape.instructions.size();
+  }
 }
 
 TEST(WarmBatchOfPairs, AllocatesNothing) {

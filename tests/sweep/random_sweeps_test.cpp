@@ -6,9 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <cstring>
+#include <limits>
 
 #include "asked_sweeps.h"
 #include "oracle/random_shapes.h"
+#include "thalweg/ops.h"
 #include "thalweg/simd.h"
 
 namespace thalweg {
@@ -42,7 +45,10 @@ AskedSweeps random_sweeps(Random& random, const Shape& shape, Moving kind, std::
     if (kind == Moving::triangles_to_ends) continue;
     for (std::size_t axis = 0; axis < d; ++axis) moves.push_back(static_cast<float>(move[axis]));
     if (d == 3) moves.push_back(static_cast<float>(random.uniform(-1, 1)));
-    for (std::size_t k = 0; k < (d == 2 ? 1 : 3); ++k) moves.push_back(static_cast<float>(random.uniform(-1, 1)));
+    // Every third row does not turn.
+    for (std::size_t k = 0; k < (d == 2 ? 1 : 3); ++k) {
+      moves.push_back(static_cast<float>(i % 3 == 0 ? 0 : random.uniform(-1, 1)));
+    }
   }
   return {shape, kind, std::move(rows), std::move(moves), {}, execution};
 }
@@ -148,6 +154,49 @@ TEST_P(RandomSweeps, AreSoundOnEveryTarget) {
     const Shape shape = oracle::random_shape(random, dimension, 6);
     check(random_sweeps(random, shape, kind, 40, {.target = &target}), shape, random);
   }
+}
+
+/// Many small parts over the cube of the queries.
+Shape many_parts(int dimension) {
+  Random random(kSeed);
+  std::vector<Shape> parts;
+  for (int i = 0; i < 240; ++i) {
+    const double x = random.uniform(-3, 3), y = random.uniform(-3, 3), z = random.uniform(-3, 3);
+    const Shape part = dimension == 2 ? (i % 2 == 0 ? circle(0.05) : star(0.1, 5, 3)).translate(Vec2{x, y})
+                                      : (i % 2 == 0 ? sphere(0.2) : box(Vec3{0.2, 0.1, 0.1})).translate(Vec3{x, y, z});
+    parts.push_back(part);
+  }
+  return union_(parts);
+}
+
+TEST_P(RandomSweeps, NearALongTapeAreAnsweredAsIfAlone) {
+  const auto [dimension, kind] = GetParam();
+  const Shape shape = many_parts(dimension);
+  Random random(kSeed);
+  AskedSweeps together = random_sweeps(random, shape, kind, 600, {.threads = 2});
+  ASSERT_GT(together.tape.instructions.size(), 300U);
+  together.moves[together.moves.size() / 2] = std::numeric_limits<float>::quiet_NaN();
+  // So few rows at once are not ordered.
+  constexpr std::size_t kFew = 50;
+  const std::size_t width = together.moves.size() / together.count;
+  const AskedSweeps all(shape, kind, together.rows, together.moves, {}, {.threads = 2});
+  for (std::size_t row = 0; row < all.count; row += kFew) {
+    const auto part = [&](const std::vector<float>& of, std::size_t numbers) {
+      return std::vector<float>(of.begin() + static_cast<std::ptrdiff_t>(row * numbers),
+                                of.begin() + static_cast<std::ptrdiff_t>((row + kFew) * numbers));
+    };
+    const AskedSweeps few(shape, kind, part(all.rows, all.width), part(all.moves, width));
+    for (std::size_t i = 0; i < kFew; ++i) {
+      ASSERT_EQ(few.status[i], all.status[row + i]) << row + i;
+      ASSERT_EQ(few.evaluations[i], all.evaluations[row + i]) << row + i;
+      ASSERT_EQ(std::memcmp(&few.lower[i], &all.lower[row + i], sizeof(float)), 0) << row + i;
+      ASSERT_EQ(std::memcmp(&few.upper[i], &all.upper[row + i], sizeof(float)), 0) << row + i;
+      ASSERT_EQ(std::memcmp(&few.point[few.d * i], &all.point[all.d * (row + i)], few.d * sizeof(float)), 0) << row + i;
+    }
+  }
+  EXPECT_EQ(all.summary.by_status[4], 1U);
+  EXPECT_GT(all.summary.by_status[1], 50U);
+  EXPECT_GT(all.summary.by_status[0], 50U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, RandomSweeps,

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "solve/sweep/sweep_tile.h"
+#include "solve/sweep/path.h"
 
 namespace thalweg {
 namespace {
@@ -150,44 +150,6 @@ SweepState SweepState::make(Arena& arena, std::size_t count) {
   s.spent = arena.take<std::uint8_t>(count);
   std::fill_n(s.spent, count, std::uint8_t{0});
   return s;
-}
-
-bool axis_and_angle(const float* quaternion, double* axis, double& angle) {
-  double w = static_cast<double>(quaternion[0]), square = 0;
-  for (int k = 0; k < 3; ++k) {
-    axis[k] = static_cast<double>(quaternion[1 + k]);
-    square += axis[k] * axis[k];
-  }
-  const double length = std::sqrt(square);
-  if (length == 0) {
-    axis[0] = axis[1] = 0, axis[2] = 1;
-    angle = 0;
-    return w != 0;
-  }
-  // q and -q are the same turn; this one is the shorter.
-  const double sign = w < 0 ? -1 : 1;
-  for (int k = 0; k < 3; ++k) axis[k] *= sign / length;
-  angle = 2 * std::atan2(length, sign * w);
-  return true;
-}
-
-ScenePlace place_of_scene(const SweepTile& tile, std::size_t row, double time) {
-  ScenePlace place;
-  if (tile.queries.motions == nullptr) return place;
-  const int d = tile.tape->dimension;
-  const float* const motion = tile.queries.motions + row * (d == 2 ? 3 : 7);
-  for (int axis = 0; axis < d; ++axis) place.translation[axis] = time * static_cast<double>(motion[axis]);
-  double n[3] = {0, 0, 1}, angle = static_cast<double>(motion[2]);
-  if (d == 3) axis_and_angle(motion + 3, n, angle);
-  const double cosine = std::cos(time * angle), sine = std::sin(time * angle);
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      // The entry of the cross product by n that is not i nor k, with its sign.
-      const double cross = i == k ? 0 : ((k - i + 3) % 3 == 1 ? -1 : 1) * n[3 - i - k];
-      place.rotation[3 * i + k] = (i == k ? cosine : 0) + sine * cross + (1 - cosine) * n[i] * n[k];
-    }
-  }
-  return place;
 }
 
 void finish_sweeps(const SweepTile& tile, const SweepState& state, float* kernel_scratch, Arena& arena) {

@@ -15,14 +15,12 @@
 
 #include "kernels/functions.inl"
 #include "solve/domains.inl"
-#include "solve/sweep/sweep_tile.h"
+#include "solve/sweep/path.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace thalweg {
 namespace HWY_NAMESPACE {
 
-/// A turn by more says less than its rounding.
-inline constexpr float kMostTurn = 1e4F;
 /// Units in the last place that placing a point takes: of a sum and a product, and of a turn.
 inline constexpr double kPlaceError = 16, kTurnError = 48;
 
@@ -45,19 +43,19 @@ class Motion {
     for (float*& column : at_) column = arena.take<float>(room);
     for (float*& column : move_) column = arena.take<float>(room);
     for (float*& column : axis_) column = arena.take<float>(room);
-    for (float** column : {&per_value_, &slack_, &furthest_, &bend_, &largest_, &bad_})
+    for (float** column : {&per_value_, &slack_, &furthest_, &farthest_, &bend_, &largest_, &bad_})
       *column = arena.take<float>(room);
   }
 
   /// Reads a tile's rows; marks those that cannot be answered.
   void load(const SweepTile& tile, float* is_bad) {
     turns_ = false;
-    read(tile.queries.rows, tile.queries.count, at_, is_bad, std::make_index_sequence<kWidth>());
-    tile.queries.ends != nullptr ? load_ends(tile, is_bad) : load_motions(tile, is_bad);
+    read(tile.queries.rows, tile.queries.count, at_, std::make_index_sequence<kWidth>());
+    tile.queries.ends != nullptr ? load_ends(tile) : load_motions(tile);
+    for (size_t q = 0; q < tile.queries.count; ++q) set_path(tile, q, is_bad);
     for (size_t i = 0; i < tile.queries.count; i += vector_lanes()) {
       if constexpr (kParts == 3) to_edges(i);
     }
-    for (size_t q = 0; q < tile.queries.count; ++q) set_limits(tile, q, is_bad);
   }
 
   /// Time in which f may change by 1 over any cell of the query, and rounding slack; of each query.
@@ -67,6 +65,8 @@ class Motion {
   [[nodiscard]] const float* furthest() const { return furthest_; }
   /// Bound of the acceleration of any point of the query, as seen from the scene.
   [[nodiscard]] const float* bend() const { return bend_; }
+  /// How far from it a point may be asked for.
+  [[nodiscard]] const float* farthest() const { return farthest_; }
   [[nodiscard]] const float* radius() const { return at_[D]; }
 
   /// The queries of one vector at their times.
@@ -98,21 +98,20 @@ class Motion {
   }
 
  private:
-  /// Row-major rows to columns.
+  /// Row-major rows to columns; zeros where a row cannot be answered.
   template <size_t... kColumn>
-  void read(const float* rows, size_t count, float* const* columns, float* is_bad, std::index_sequence<kColumn...>) {
+  void read(const float* rows, size_t count, float* const* columns, std::index_sequence<kColumn...>) {
     QueryTile tile;
     tile.rows = rows;
     tile.count = count;
-    load_rows<sizeof...(kColumn)>(tile, columns, largest_, is_bad);
+    load_rows<sizeof...(kColumn)>(tile, columns, largest_, bad_);
   }
 
-  void load_ends(const SweepTile& tile, float* is_bad) {
+  void load_ends(const SweepTile& tile) {
     const F32 d;
     if constexpr (kParts == 3) {
-      read(tile.queries.ends, tile.queries.count, move_, bad_, std::make_index_sequence<kWidth>());
+      read(tile.queries.ends, tile.queries.count, move_, std::make_index_sequence<kWidth>());
       for (size_t i = 0; i < tile.queries.count; i += hn::Lanes(d)) {
-        hn::StoreU(hn::Max(hn::LoadU(d, is_bad + i), hn::LoadU(d, bad_ + i)), d, is_bad + i);
         for (size_t k = 0; k < kWidth; ++k) {
           hn::StoreU(hn::Sub(hn::LoadU(d, move_[k] + i), hn::LoadU(d, at_[k] + i)), d, move_[k] + i);
         }
@@ -120,23 +119,12 @@ class Motion {
     }
   }
 
-  void load_motions(const SweepTile& tile, float* is_bad) {
+  void load_motions(const SweepTile& tile) {
     constexpr size_t kMotionWidth = D == 2 ? 3 : 7;
     for (size_t q = 0; q < tile.queries.count; ++q) {
-      const float* const motion = tile.queries.motions + q * kMotionWidth;
-      for (size_t k = 0; k < kMotionWidth; ++k) {
-        if (!(std::fabs(motion[k]) <= kLargestCoordinate)) is_bad[q] = 1;
-      }
-      double axis[3] = {0, 0, 1}, angle = D == 2 ? static_cast<double>(motion[2]) : 0;
-      if constexpr (D == 3) {
-        if (is_bad[q] == 0 && !axis_and_angle(motion + 3, axis, angle)) is_bad[q] = 1;
-      }
-      if (!(std::fabs(angle) <= static_cast<double>(kMostTurn))) is_bad[q] = 1;
-      if (is_bad[q] != 0) angle = 0;
-      turns_ = turns_ || angle != 0;
-      for (size_t k = 0; k < 3; ++k) axis_[k][q] = static_cast<float>(axis[k] * angle);
-      for (size_t part = 0; part < kParts; ++part) {
-        for (size_t k = 0; k < D; ++k) move_[part * D + k][q] = is_bad[q] == 0 ? -motion[k] : 0;
+      for (size_t k = 0; k < D; ++k) {
+        const float move = -tile.queries.motions[q * kMotionWidth + k];
+        for (size_t part = 0; part < kParts; ++part) move_[part * D + k][q] = move;
       }
     }
   }
@@ -155,42 +143,25 @@ class Motion {
     }
   }
 
-  /// Speed and slack of one query, rounded up.
-  void set_limits(const SweepTile& tile, size_t q, float* is_bad) {
-    double fastest = 0, furthest = 0;
-    for (size_t vertex = 0; vertex < kParts; ++vertex) {
-      double speed = 0, now = 0, then = 0;
-      for (size_t axis = 0; axis < D; ++axis) {
-        double at = at_[axis][q], move = move_[axis][q];
-        if (vertex > 0) at += at_[vertex * D + axis][q], move += move_[vertex * D + axis][q];
-        speed += move * move;
-        now += at * at;
-        then += (at + move) * (at + move);
+  /// What holds for one query as a whole, in float32 and on the safe side; one that cannot be answered stands still.
+  void set_path(const SweepTile& tile, size_t q, float* is_bad) {
+    const Path path = path_of(tile, q, kParts == 1);
+    is_bad[q] = path.is_bad ? 1 : 0;
+    if (path.is_bad) {
+      for (float* column : move_) {
+        if (column != nullptr) column[q] = 0;
       }
-      fastest = std::max(fastest, speed);
-      furthest = std::max({furthest, now, then});
     }
-    fastest = std::sqrt(fastest) * (1 + 1e-5);
-    furthest = std::sqrt(furthest) * (1 + 1e-5);
-    if constexpr (kParts == 1) {
-      if (at_[D][q] < 0) is_bad[q] = 1, at_[D][q] = 0;
-      furthest += at_[D][q];
-    }
-    const double lipschitz = tile.tape->facts.lipschitz;
-    double places = kPlaceError, bend = 0;
-    if (turns_) {
-      double square = 0;
-      for (const float* column : axis_) square += static_cast<double>(column[q]) * static_cast<double>(column[q]);
-      const double angle = std::sqrt(square) * (1 + 1e-5);
-      bend = angle * (angle * furthest + 2 * fastest);
-      fastest += angle * furthest;
-      places += kTurnError + 4 * angle;
-    }
-    furthest_[q] = static_cast<float>(furthest);
-    bend_[q] = static_cast<float>(bend);
-    slack_[q] = static_cast<float>((tile.tape->search_slack(furthest) + places * kUnitRoundoff * lipschitz * furthest) *
-                                   (1 + 1e-6));
-    per_value_[q] = static_cast<float>(std::min(1 / (lipschitz * fastest), 1e20) * (1 - 1e-6));
+    turns_ = turns_ || path.angle != 0;
+    for (size_t k = 0; k < 3; ++k) axis_[k][q] = static_cast<float>(path.axis[k] * path.angle);
+    const double lipschitz = tile.tape->facts.lipschitz, angle = std::fabs(path.angle);
+    const double places = kPlaceError + (angle > 0 ? kTurnError + 4 * angle : 0);
+    furthest_[q] = static_cast<float>(path.furthest * (1 + 1e-6));
+    bend_[q] = static_cast<float>(path.bend * (1 + 1e-6));
+    farthest_[q] = tile.stays_near ? static_cast<float>(path.margin * (1 - 1e-5)) : 1e30F;
+    const double rounding = places * kUnitRoundoff * lipschitz * path.furthest;
+    slack_[q] = static_cast<float>((tile.tape->search_slack(path.furthest) + rounding) * (1 + 1e-6));
+    per_value_[q] = static_cast<float>(std::min(1 / (lipschitz * path.fastest), 1e20) * (1 - 1e-6));
   }
 
   /// Rodrigues' formula, by -t times the angle.
@@ -199,34 +170,38 @@ class Motion {
     V32 w[3];
     for (size_t k = 0; k < 3; ++k) w[k] = placed.axis[k] = gather(axis_[k], query);
     if constexpr (D == 2) {
+      // What does not turn keeps its bits, whatever its neighbours do.
+      const auto turns = hn::Ne(w[2], hn::Zero(d));
       const auto angle = hn::Mul(w[2], time);
       const auto sine = sin_of(angle), cosine = cos_of(angle);
       for (auto* vectors : {placed.part, placed.change}) {
         for (size_t part = 0; part < kParts; ++part) {
           const auto x = vectors[part][0], y = vectors[part][1];
-          vectors[part][0] = hn::MulAdd(cosine, x, hn::Mul(sine, y));
-          vectors[part][1] = hn::NegMulAdd(sine, x, hn::Mul(cosine, y));
+          vectors[part][0] = hn::IfThenElse(turns, hn::MulAdd(cosine, x, hn::Mul(sine, y)), x);
+          vectors[part][1] = hn::IfThenElse(turns, hn::NegMulAdd(sine, x, hn::Mul(cosine, y)), y);
         }
       }
     } else {
       const auto square = hn::MulAdd(w[0], w[0], hn::MulAdd(w[1], w[1], hn::Mul(w[2], w[2])));
       const auto angle = hn::Sqrt(square);
-      const auto inverse = hn::IfThenElseZero(hn::Gt(square, hn::Zero(d)), hn::Div(hn::Set(d, 1.0F), angle));
+      const auto turns = hn::Gt(square, hn::Zero(d));
+      const auto inverse = hn::IfThenElseZero(turns, hn::Div(hn::Set(d, 1.0F), angle));
       for (auto& component : w) component = hn::Mul(component, inverse);
       const auto sine = sin_of(hn::Mul(angle, time)), cosine = cos_of(hn::Mul(angle, time));
       for (auto* vectors : {placed.part, placed.change}) {
-        for (size_t part = 0; part < kParts; ++part) turn_vector(w, sine, cosine, vectors[part]);
+        for (size_t part = 0; part < kParts; ++part) turn_vector(w, sine, cosine, turns, vectors[part]);
       }
     }
   }
-  static HWY_INLINE void turn_vector(const V32* n, V32 sine, V32 cosine, V32* p) {
+  static HWY_INLINE void turn_vector(const V32* n, V32 sine, V32 cosine, M32 turns, V32* p) {
     const F32 d;
     const auto along = hn::MulAdd(n[0], p[0], hn::MulAdd(n[1], p[1], hn::Mul(n[2], p[2])));
     const auto rest = hn::Mul(along, hn::Sub(hn::Set(d, 1.0F), cosine));
     const V32 cross[3] = {hn::MulSub(n[1], p[2], hn::Mul(n[2], p[1])), hn::MulSub(n[2], p[0], hn::Mul(n[0], p[2])),
                           hn::MulSub(n[0], p[1], hn::Mul(n[1], p[0]))};
     for (size_t k = 0; k < 3; ++k) {
-      p[k] = hn::MulAdd(n[k], rest, hn::NegMulAdd(sine, cross[k], hn::Mul(cosine, p[k])));
+      const auto turned = hn::MulAdd(n[k], rest, hn::NegMulAdd(sine, cross[k], hn::Mul(cosine, p[k])));
+      p[k] = hn::IfThenElse(turns, turned, p[k]);
     }
   }
 
@@ -234,8 +209,8 @@ class Motion {
   float* at_[kColumns] = {};
   float* move_[kColumns] = {};
   float* axis_[3] = {};  ///< times the angle
-  float *per_value_ = nullptr, *slack_ = nullptr, *furthest_ = nullptr, *bend_ = nullptr, *largest_ = nullptr,
-        *bad_ = nullptr;
+  float *per_value_ = nullptr, *slack_ = nullptr, *furthest_ = nullptr, *farthest_ = nullptr, *bend_ = nullptr,
+        *largest_ = nullptr, *bad_ = nullptr;
   bool turns_ = false;
 };
 

@@ -66,7 +66,7 @@ class SecondLooks {
       hn::StoreU(hn::Set(d, -std::numeric_limits<float>::infinity()), d, far_value_ + i);
       clear_by_reach(tile, motion, looks, wave, i);
       const auto open = is_open(looks, i);
-      if (!hn::AllFalse(d, open)) add_far_points(tile, looks, wave, i, open);
+      if (!hn::AllFalse(d, open)) add_far_points(tile, motion, looks, wave, i, open);
     }
     far_ = count_;
     for (size_t i = 0; i < looks.count; i += hn::Lanes(d)) {
@@ -122,8 +122,8 @@ class SecondLooks {
     add(which, i, point);
   }
 
-  HWY_INLINE void add_far_points(const SweepTile& tile, const Looks& looks, const MovingWave& wave, size_t i,
-                                 M32 which) {
+  HWY_INLINE void add_far_points(const SweepTile& tile, const Moved& motion, const Looks& looks, const MovingWave& wave,
+                                 size_t i, M32 which) {
     const F32 d;
     const auto lipschitz = lipschitz_of(tile);
     V32 u[kAxes], point[kAxes];
@@ -136,7 +136,8 @@ class SecondLooks {
     if (hn::AllFalse(d, asks)) return;
     const auto length = hn::Sqrt(hn::IfThenElse(asks, square, hn::Set(d, 1.0F)));
     const auto size = hn::Max(hn::LoadU(d, wave.reach + i), hn::Div(value, lipschitz));
-    const auto s = hn::Mul(hn::LoadU(d, looks.far_factor + i), size);
+    const auto wanted = hn::Mul(hn::LoadU(d, looks.far_factor + i), size);
+    const auto s = hn::Min(wanted, gather(motion.farthest(), looks.query + i));
     const auto along = hn::Div(s, length);
     for (size_t axis = 0; axis < kAxes; ++axis) {
       const auto step = hn::Mul(along, u[axis]);

@@ -12,6 +12,7 @@ namespace thalweg {
 
 struct SweepTile {
   const Tape* tape = nullptr;
+  bool stays_near = false;  ///< no point is asked for further than Path::margin from where the query is
   const Kernels* kernels = nullptr;
   float tolerance = 0;
   std::uint32_t budget = 0;
@@ -44,15 +45,5 @@ struct SweepState {
 
 /// Writes the columns of a tile.
 void finish_sweeps(const SweepTile& tile, const SweepState& state, float* kernel_scratch, Arena& arena);
-
-/// The scene's motion of a row in double: its place at time t.
-struct ScenePlace {
-  double rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< row-major, from the scene's frame
-  double translation[3] = {};
-};
-[[nodiscard]] ScenePlace place_of_scene(const SweepTile& tile, std::size_t row, double time);
-
-/// A turn by the shorter way: unit axis and angle of a quaternion w, x, y, z. False for one of zeros.
-bool axis_and_angle(const float* quaternion, double* axis, double& angle);
 
 }  // namespace thalweg
