@@ -8,6 +8,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -51,6 +52,50 @@ inline void finish(benchmark::State& state, const Growth& growth, const std::vec
         1e9 * growth.median(i) / static_cast<double>(queries[i]);
   }
   state.counters["exponent"] = growth.exponent();
+}
+
+/// Times `run(work, first row, rows)` on scenes of 10 to 10 000 primitives; make(size, error) gives the work on one, or
+/// says what is wrong with its answers. Also:
+///   cost_of_1000_over_10   time of a row among 1 000 primitives over that of one among 10
+///   vs_whole_tape          at 1 000 primitives, time of `few` rows a call, which the whole tape answers, over that of
+///                          the batch, which shortened ones do
+template <class Make, class Run>
+void grow_by_scene(benchmark::State& state, const Make& make, const Run& run, std::size_t few) {
+  Growth growth(smoke() ? std::vector<std::size_t>{10, 100, 1000} : std::vector<std::size_t>{10, 100, 1000, 10'000});
+  std::string error;
+  std::vector<decltype(make(10, error))> works;
+  for (const std::size_t size : growth.sizes()) {
+    works.push_back(make(size, error));
+    if (!error.empty()) return refuse(state, std::to_string(size) + " primitives, " + error);
+  }
+  Samples cost, gain;
+  for (auto _ : state) {
+    double sum = 0;
+    std::vector<double> each;
+    for (std::size_t i = 0; i < works.size(); ++i) {
+      auto& work = *works[i];
+      const std::size_t repeats = std::max<std::size_t>(batch(1 << 14) / work.count(), 1);
+      const double time = seconds([&] {
+        for (std::size_t k = 0; k < repeats; ++k) run(work, std::size_t{0}, work.count());
+      });
+      sum += time;
+      each.push_back(time / static_cast<double>(repeats * work.count()));
+      growth.add(i, each.back());
+    }
+    auto& thousand = *works[2];
+    const std::size_t some = std::min<std::size_t>(thousand.count() / few, 32) * few;
+    const double whole = seconds([&] {
+      for (std::size_t row = 0; row < some; row += few) run(thousand, row, few);
+    });
+    cost.add(each[2] / each[0]);
+    gain.add(whole / static_cast<double>(some) / each[2]);
+    state.SetIterationTime(sum);
+  }
+  finish(state, growth, std::vector<std::size_t>(works.size(), 1));
+  state.counters["cost_of_1000_over_10"] = cost.median();
+  state.counters["cost_of_1000_over_10_spread"] = cost.spread();
+  state.counters["vs_whole_tape"] = gain.median();
+  state.counters["vs_whole_tape_spread"] = gain.spread();
 }
 
 /// A case whose rounds are its iterations.

@@ -37,6 +37,7 @@ int main(int count, char** arguments) {
   thalweg::bench::register_startup_cases();
   thalweg::bench::register_vm_cases();
   thalweg::bench::register_pair_cases();
+  thalweg::bench::register_sweep_cases();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return thalweg::bench::any_refused() ? 1 : 0;

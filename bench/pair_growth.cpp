@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: The thalweg authors
 // SPDX-License-Identifier: MIT
 //
-// growth/pairs and growth/distances: a small body at random poses all over scenes of 10 to 10 000 primitives.
-//   cost_of_1000_over_10   time of a pair among 1 000 primitives over that of one among 10
-//   vs_whole_tape          at 1 000 primitives, time of a few rows a call, which the whole tape answers, over that of
-//                          the batch, which shortened ones do
+// growth/pairs and growth/distances: a small body at random poses all over scenes of 10 to 10 000 primitives
+// (growth.h).
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -147,42 +145,13 @@ std::string wrong_answer(Meeting& meeting, void (Meeting::*work)(std::size_t, st
 }
 
 void pairs(benchmark::State& state, void (Meeting::*work)(std::size_t, std::size_t)) {
-  Growth growth(smoke() ? std::vector<std::size_t>{10, 100, 1000} : std::vector<std::size_t>{10, 100, 1000, 10'000});
-  std::vector<std::unique_ptr<Meeting>> meetings;
-  for (const std::size_t size : growth.sizes()) {
-    meetings.push_back(std::make_unique<Meeting>(size, std::max(batch(kPairsPerPrimitive * size), 4 * kFewRows)));
-    if (const std::string wrong = wrong_answer(*meetings.back(), work); !wrong.empty()) {
-      return refuse(state, std::to_string(size) + " primitives, " + wrong);
-    }
-  }
-  Samples cost, gain;
-  for (auto _ : state) {
-    double sum = 0;
-    std::vector<double> each;
-    for (std::size_t i = 0; i < meetings.size(); ++i) {
-      Meeting& meeting = *meetings[i];
-      const std::size_t repeats = std::max<std::size_t>(batch(1 << 14) / meeting.count(), 1);
-      const double time = seconds([&] {
-        for (std::size_t k = 0; k < repeats; ++k) (meeting.*work)(0, meeting.count());
-      });
-      sum += time;
-      each.push_back(time / static_cast<double>(repeats * meeting.count()));
-      growth.add(i, each.back());
-    }
-    Meeting& thousand = *meetings[2];
-    const std::size_t some = std::min<std::size_t>(thousand.count() / kFewRows, 32) * kFewRows;
-    const double whole = seconds([&] {
-      for (std::size_t row = 0; row < some; row += kFewRows) (thousand.*work)(row, kFewRows);
-    });
-    cost.add(each[2] / each[0]);
-    gain.add(whole / static_cast<double>(some) / each[2]);
-    state.SetIterationTime(sum);
-  }
-  finish(state, growth, std::vector<std::size_t>(meetings.size(), 1));
-  state.counters["cost_of_1000_over_10"] = cost.median();
-  state.counters["cost_of_1000_over_10_spread"] = cost.spread();
-  state.counters["vs_whole_tape"] = gain.median();
-  state.counters["vs_whole_tape_spread"] = gain.spread();
+  const auto make = [work](std::size_t size, std::string& error) {
+    auto meeting = std::make_unique<Meeting>(size, std::max(batch(kPairsPerPrimitive * size), 4 * kFewRows));
+    error = wrong_answer(*meeting, work);
+    return meeting;
+  };
+  const auto run = [work](Meeting& meeting, std::size_t row, std::size_t rows) { (meeting.*work)(row, rows); };
+  grow_by_scene(state, make, run, kFewRows);
 }
 
 }  // namespace

@@ -45,6 +45,7 @@ void register_evaluate_cases();
 void register_triangle_cases();
 void register_growth_cases();
 void register_pair_growth_cases();
+void register_sweep_cases();
 void register_startup_cases();
 void register_vm_cases();
 void register_pair_cases();

@@ -24,6 +24,9 @@ namespace {
 constexpr std::size_t kMostTile = 4096;
 constexpr std::size_t kLeastTile = 256;
 constexpr std::size_t kTilesPerWorker = 8;
+/// Of parts near a long tape: a few queries take hundreds of looks, and would have the lanes of a small part for
+/// themselves (measured, growth/sweeps).
+constexpr PartSizes kParts{.most = 1024, .few = 128};
 
 /// Calls visit(width, columns.c...) for every column c, with its numbers per row.
 template <class Visit, class... Columns>
@@ -152,7 +155,7 @@ class SweepTask final : public TileTask, public OrderedBatch::Answer {
       for (std::size_t row = begin; row < end; ++row) write_box(row);
     });
     const RowLayout layout{.dimension = d_, .points = 2, .has_radius = false};
-    OrderedBatch batch(*all_.tape, layout, memory_.boxes.data(), all_.queries.count, {}, execution_);
+    OrderedBatch batch(*all_.tape, layout, memory_.boxes.data(), all_.queries.count, {}, execution_, kParts);
     return batch.run(*this);
   }
   void write_box(std::size_t row) {

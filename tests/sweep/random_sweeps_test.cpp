@@ -196,7 +196,7 @@ TEST_P(RandomSweeps, NearALongTapeAreAnsweredAsIfAlone) {
   }
   EXPECT_EQ(all.summary.by_status[4], 1U);
   EXPECT_GT(all.summary.by_status[1], 50U);
-  EXPECT_GT(all.summary.by_status[0], 50U);
+  EXPECT_GT(all.summary.by_status[0], 40U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, RandomSweeps,

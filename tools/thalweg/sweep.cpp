@@ -175,7 +175,7 @@ Command add_sweep(CLI::App& app, const Globals& globals) {
   add_unsupported(*command, {"--poses", "Poses of the second scene (not supported yet)"});
   add_output(*command, request->output, ".npz, or - for stdout");
   add_positive(*command, {"--tolerance", "Part of the time, from 1e-5 to 1; default 1e-3"}, request->options.tolerance);
-  add_integer(*command, {"--budget", "Evaluations per query, default 4096"}, request->budget, {6, UINT32_MAX});
+  add_integer(*command, {"--budget", "Evaluations per query, default 1024"}, request->budget, {6, UINT32_MAX});
   return {command, [request, &globals] {
             request->options.budget = static_cast<std::uint32_t>(request->budget);
             return run_sweep(*request, globals);

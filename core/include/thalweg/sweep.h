@@ -25,7 +25,7 @@ struct SweepQueries {
 
 struct SweepOptions {
   double tolerance = 0;         ///< of time, from 1e-5 to 1; 0: 1e-3
-  std::uint32_t budget = 4096;  ///< evaluations per query
+  std::uint32_t budget = 1024;  ///< evaluations per query
 };
 inline constexpr double kDefaultSweepTolerance = 1e-3;
 

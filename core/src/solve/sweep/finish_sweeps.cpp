@@ -23,14 +23,14 @@ struct Bracket {
   bool contact = false;
 };
 
-Bracket bracket_of(const SweepTile& tile, const SweepState& state, std::size_t q) {
+Bracket bracket_of(const SweepState& state, std::size_t q) {
   Bracket found;
   found.contact = std::isfinite(state.upper[q]);
   const bool open = std::isfinite(state.open_lower[q]);
   if (found.contact) {
     found.status = Status::overlapping;
     found.upper = state.upper[q];
-    found.lower = std::max(std::min(state.open_lower[q], found.upper - tile.tolerance), 0.0F);
+    found.lower = std::max(std::min(state.open_lower[q], found.upper - state.tolerance[q]), 0.0F);
   } else if (open) {
     found.status = state.spent[q] != 0 ? Status::undecided : Status::touching;
     found.lower = state.open_lower[q];
@@ -142,8 +142,8 @@ class Contacts {
 
 SweepState SweepState::make(Arena& arena, std::size_t count) {
   SweepState s;
-  for (float** column : {&s.upper, &s.open_lower, &s.open_upper, &s.value, &s.point[0], &s.point[1], &s.point[2],
-                         &s.barycentric[0], &s.barycentric[1], &s.is_bad}) {
+  for (float** column : {&s.upper, &s.tolerance, &s.open_lower, &s.open_upper, &s.value, &s.point[0], &s.point[1],
+                         &s.point[2], &s.barycentric[0], &s.barycentric[1], &s.is_bad}) {
     *column = arena.take<float>(count);
   }
   s.evaluations = arena.take<std::uint32_t>(count);
@@ -160,7 +160,7 @@ void finish_sweeps(const SweepTile& tile, const SweepState& state, float* kernel
       write_nowhere(tile, q);
       continue;
     }
-    const Bracket found = bracket_of(tile, state, q);
+    const Bracket found = bracket_of(state, q);
     write_bracket(tile, q, found);
     put(tile.columns.evaluations, q, state.evaluations[q]);
     found.contact ? contacts.add(q) : write_nowhere(tile, q);

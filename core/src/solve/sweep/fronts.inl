@@ -42,7 +42,7 @@ class Fronts {
   /// Evaluations of a look, at most: the bound of a piece, and two points more where that is too low.
   static constexpr uint32_t kCost = 3;
 
-  Fronts(const SweepTile& tile, SweepScratch& scratch) : tile_(tile), least_step_(tile.tolerance / 8) {
+  Fronts(const SweepTile& tile, SweepScratch& scratch) : tile_(tile) {
     Arena& arena = scratch.arena;
     arena.reset();
     constexpr size_t kRoom = kLanes + kColumnPadding;
@@ -50,8 +50,9 @@ class Fronts {
     state_ = SweepState::make(arena, padded(tile.queries.count));
     wave_.take(arena, kRoom);
     second_looks_.take(arena, kLanes);
-    for (float** column : {&front_, &step_, &time_, &upper_, &value_, &open_lower_, &open_upper_, &uv_[0], &uv_[1],
-                           &point_[0], &point_[1], &end_, &before_, &after_, &gap_, &far_factor_, &point_[2]}) {
+    for (float** column :
+         {&front_, &step_, &time_, &upper_, &value_, &open_lower_, &open_upper_, &uv_[0], &uv_[1], &point_[0],
+          &point_[1], &tolerance_, &end_, &before_, &after_, &gap_, &far_factor_, &point_[2]}) {
       *column = arena.take<float>(kRoom);
     }
     query_ = arena.take<uint32_t>(kRoom);
@@ -85,6 +86,8 @@ class Fronts {
   }
 
  private:
+  /// Of the tolerance: steps that a front takes at the least.
+  static constexpr float kLeastStep = 0.125F;
   static constexpr float kNever = std::numeric_limits<float>::infinity();
   /// Of times up to 1, a few roundings.
   static constexpr float kTimeRounding = 4e-7F;
@@ -96,6 +99,7 @@ class Fronts {
     for (size_t k = 0; k < kCoordinates; ++k) wave_.at[k][lane] = Cell::kRoot[k];
     front_[lane] = 0;
     step_[lane] = 0.5F;
+    tolerance_[lane] = motion_.tolerance()[query_[lane]];
     far_factor_[lane] = SecondLooks<Cell>::kFirstFactor;
     upper_[lane] = open_lower_[lane] = kNever;
     open_upper_[lane] = 0;
@@ -109,8 +113,8 @@ class Fronts {
     looks_[to] = looks_[from];
     depth_[to] = depth_[from];
     for (size_t k = 0; k < kCoordinates; ++k) wave_.at[k][to] = wave_.at[k][from];
-    for (float* column : {front_, step_, far_factor_, upper_, value_, open_lower_, open_upper_, uv_[0], uv_[1],
-                          point_[0], point_[1], point_[2]}) {
+    for (float* column : {front_, step_, tolerance_, far_factor_, upper_, value_, open_lower_, open_upper_, uv_[0],
+                          uv_[1], point_[0], point_[1], point_[2]}) {
       column[to] = column[from];
     }
     std::copy_n(stack_ + from * kStackDepth * kEntry, depth_[to] * kEntry, stack_ + to * kStackDepth * kEntry);
@@ -168,7 +172,7 @@ class Fronts {
   /// Up to where fronts must come: the end, or the tolerance before the earliest contact.
   [[nodiscard]] HWY_INLINE V32 limit_of(size_t i) const {
     const F32 d;
-    return hn::Min(hn::Set(d, 1.0F), hn::Sub(hn::LoadU(d, upper_ + i), hn::Set(d, tile_.tolerance)));
+    return hn::Min(hn::Set(d, 1.0F), hn::Sub(hn::LoadU(d, upper_ + i), hn::LoadU(d, tolerance_ + i)));
   }
 
   /// Moves the fronts of one vector of lanes, or cuts their cells. Returns the lanes that need a new cell, or are at
@@ -176,7 +180,10 @@ class Fronts {
   HWY_INLINE uint64_t advance(size_t i) {
     const F32 d;
     const auto one = hn::Set(d, 1.0F), half = hn::Set(d, 0.5F);
-    const auto least = hn::Set(d, least_step_);
+    const auto tolerance = hn::LoadU(d, tolerance_ + i);
+    // Long past a time that stays open only an earlier contact is of use, and coarse looks find it.
+    const auto late = hn::Ge(hn::LoadU(d, front_ + i), hn::Add(hn::LoadU(d, open_lower_ + i), tolerance));
+    const auto least = hn::Mul(tolerance, hn::IfThenElse(late, half, hn::Set(d, kLeastStep)));
     const auto slack = gather(motion_.slack(), query_ + i);
     const auto per_value = gather(motion_.per_value(), query_ + i);
     take_contacts(i, slack);
@@ -193,9 +200,11 @@ class Fronts {
     for (size_t axis = 0; axis < kAxes; ++axis) speed[axis] = hn::LoadU(d, wave_.speed[axis] + i);
     const auto fall = hn::Mul(hn::Neg(wave_.along_gradient(i, speed, kAxes)), per_value);
     const auto a = hn::Min(one, hn::Max(hn::Set(d, -1.0F), fall));
-    const auto tries = hn::Le(step, hn::Set(d, least_step_ * 1.001F));
-    // What is lost delays the proof of a contact by loss / a.
-    const auto harmless = hn::Max(least, hn::Mul(a, hn::Set(d, 0.7F * tile_.tolerance)));
+    const auto tries = hn::Le(step, hn::Mul(least, hn::Set(d, 1.001F)));
+    // What is lost delays the proof of a contact by loss / a, and two slacks do.
+    const auto allowed = hn::Mul(a, hn::Mul(tolerance, hn::Set(d, 0.7F)));
+    const auto precise = hn::Max(least, hn::NegMulAdd(hn::Set(d, 2.0F), hn::Mul(slack, per_value), allowed));
+    const auto harmless = hn::IfThenElse(late, tolerance, precise);
     const auto is_small = hn::Or(hn::Le(loss, harmless), hn::Le(hn::Abs(hn::LoadU(d, wave_.reach + i)), slack));
     const auto gives_up = hn::And(hn::AndNot(clears, tries), is_small);
     const auto passed = hn::Max(time, hn::MulAdd(slack, per_value, front));
@@ -266,7 +275,7 @@ class Fronts {
 
   /// Another cell for a lane whose own is clear; false when its query is done.
   bool goes_on(size_t lane) {
-    const float limit = std::min(1.0F, upper_[lane] - tile_.tolerance);
+    const float limit = std::min(1.0F, upper_[lane] - tolerance_[lane]);
     if ((full_lanes_ >> lane & 1) != 0 || looks_[lane] > tile_.budget - kCost) return spend(lane, limit);
     if (front_[lane] < limit) return true;
     while (depth_[lane] > 0) {
@@ -274,7 +283,7 @@ class Fronts {
       if (!(top[kCoordinates] < limit)) continue;
       for (size_t k = 0; k < kCoordinates; ++k) wave_.at[k][lane] = top[k];
       front_[lane] = top[kCoordinates];
-      const float middle = std::max(0.50001F * (limit - front_[lane]), least_step_ / 2);
+      const float middle = std::max(0.50001F * (limit - front_[lane]), tolerance_[lane] * kLeastStep / 2);
       step_[lane] = std::min(top[kCoordinates + 1], middle);
       return true;
     }
@@ -299,6 +308,7 @@ class Fronts {
   void leave(size_t lane) {
     const uint32_t q = query_[lane];
     state_.upper[q] = upper_[lane];
+    state_.tolerance[q] = tolerance_[lane];
     state_.open_lower[q] = open_lower_[lane];
     state_.open_upper[q] = open_upper_[lane];
     state_.value[q] = value_[lane];
@@ -312,13 +322,12 @@ class Fronts {
   SweepState state_;
   MovingWave wave_;
   SecondLooks<Cell> second_looks_;
-  float least_step_;
   size_t count_ = 0;
   uint64_t full_lanes_ = 0;  ///< those whose stack has no room
   uint32_t* query_ = nullptr;
   uint32_t* looks_ = nullptr;
   uint32_t* depth_ = nullptr;
-  float *front_ = nullptr, *step_ = nullptr, *time_ = nullptr, *end_ = nullptr;
+  float *front_ = nullptr, *step_ = nullptr, *time_ = nullptr, *end_ = nullptr, *tolerance_ = nullptr;
   float *before_ = nullptr, *after_ = nullptr, *gap_ = nullptr, *far_factor_ = nullptr;
   float *upper_ = nullptr, *value_ = nullptr, *open_lower_ = nullptr, *open_upper_ = nullptr;
   float* uv_[2] = {};

@@ -21,6 +21,8 @@ HWY_BEFORE_NAMESPACE();
 namespace thalweg {
 namespace HWY_NAMESPACE {
 
+/// Slacks of a bracket: f is told from 0 within one on either side, and pieces are as coarse as the rest allows.
+inline constexpr float kSlacks = 6;
 /// Units in the last place that placing a point takes: of a sum and a product, and of a turn.
 inline constexpr double kPlaceError = 16, kTurnError = 48;
 
@@ -43,7 +45,7 @@ class Motion {
     for (float*& column : at_) column = arena.take<float>(room);
     for (float*& column : move_) column = arena.take<float>(room);
     for (float*& column : axis_) column = arena.take<float>(room);
-    for (float** column : {&per_value_, &slack_, &furthest_, &farthest_, &bend_, &largest_, &bad_})
+    for (float** column : {&per_value_, &slack_, &tolerance_, &furthest_, &farthest_, &bend_, &largest_, &bad_})
       *column = arena.take<float>(room);
   }
 
@@ -61,6 +63,8 @@ class Motion {
   /// Time in which f may change by 1 over any cell of the query, and rounding slack; of each query.
   [[nodiscard]] const float* per_value() const { return per_value_; }
   [[nodiscard]] const float* slack() const { return slack_; }
+  /// Of each query, how narrow a bracket is asked for: float32 cannot prove a contact within less than a few slacks.
+  [[nodiscard]] const float* tolerance() const { return tolerance_; }
   /// Of each query, the greatest distance from the origin that it gets to.
   [[nodiscard]] const float* furthest() const { return furthest_; }
   /// Bound of the acceleration of any point of the query, as seen from the scene.
@@ -162,6 +166,7 @@ class Motion {
     const double rounding = places * kUnitRoundoff * lipschitz * path.furthest;
     slack_[q] = static_cast<float>((tile.tape->search_slack(path.furthest) + rounding) * (1 + 1e-6));
     per_value_[q] = static_cast<float>(std::min(1 / (lipschitz * path.fastest), 1e20) * (1 - 1e-6));
+    tolerance_[q] = std::min(std::max(tile.tolerance, kSlacks * slack_[q] * per_value_[q]), 1.0F);
   }
 
   /// Rodrigues' formula, by -t times the angle.
@@ -209,8 +214,8 @@ class Motion {
   float* at_[kColumns] = {};
   float* move_[kColumns] = {};
   float* axis_[3] = {};  ///< times the angle
-  float *per_value_ = nullptr, *slack_ = nullptr, *furthest_ = nullptr, *farthest_ = nullptr, *bend_ = nullptr,
-        *largest_ = nullptr, *bad_ = nullptr;
+  float *per_value_ = nullptr, *slack_ = nullptr, *tolerance_ = nullptr, *furthest_ = nullptr, *farthest_ = nullptr,
+        *bend_ = nullptr, *largest_ = nullptr, *bad_ = nullptr;
   bool turns_ = false;
 };
 

@@ -31,6 +31,7 @@ struct SweepScratch {
 /// The findings on a tile's queries, in columns, one entry each. Points are in the scene's frame.
 struct SweepState {
   float* upper = nullptr;       ///< time of the earliest contact proven, infinite without one
+  float* tolerance = nullptr;   ///< how far before it the search has ended
   float* open_lower = nullptr;  ///< first of the times that were not excluded, infinite without any
   float* open_upper = nullptr;  ///< last of them
   float* value = nullptr;
