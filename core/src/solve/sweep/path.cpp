@@ -31,12 +31,6 @@ bool axis_and_angle(const float* quaternion, double* axis, double& angle) {
   return true;
 }
 
-double length_of(const double* vector, int dimension) {
-  double square = 0;
-  for (int axis = 0; axis < dimension; ++axis) square += vector[axis] * vector[axis];
-  return std::sqrt(square);
-}
-
 std::size_t width_of(int dimension) { return dimension == 2 ? 3 : 7; }
 
 /// A vertex of a row, or the centre of its ball, and how far it moves by itself.
@@ -86,24 +80,31 @@ Path path_of(const SweepTile& tile, std::size_t row, bool is_ball) {
     path.angle = 0;
     return path;
   }
-  double size = radius;
-  const Vertex first = vertex_of(tile, row, 0, is_ball);
+  // Squares first: a row takes three roots.
+  double speed = 0, distance = 0, size = 0;
+  Vertex first;
   for (std::size_t k = 0; k < (is_ball ? 1 : 3); ++k) {
     const Vertex v = vertex_of(tile, row, k, is_ball);
-    double then[3] = {}, from_first[3] = {};
+    if (k == 0) first = v;
+    double move = 0, now = 0, then = 0, apart = 0;
     for (int axis = 0; axis < d; ++axis) {
-      then[axis] = v.at[axis] + v.move[axis];
-      from_first[axis] = v.at[axis] - first.at[axis];
+      const double at = v.at[axis], by = v.move[axis];
+      move += by * by;
+      now += at * at;
+      then += (at + by) * (at + by);
+      apart += (at - first.at[axis]) * (at - first.at[axis]);
     }
-    path.fastest = std::max(path.fastest, length_of(v.move, d) * kUp);
-    path.furthest = std::max({path.furthest, length_of(v.at, d) * kUp, length_of(then, d) * kUp});
-    size = std::max(size, length_of(from_first, d));
+    speed = std::max(speed, move);
+    distance = std::max({distance, now, then});
+    size = std::max(size, apart);
   }
+  path.fastest = std::sqrt(speed) * kUp;
+  path.furthest = std::sqrt(distance) * kUp;
   path.furthest += radius;
   const double angle = std::fabs(path.angle) * kUp;
   path.bend = angle * (angle * path.furthest + 2 * path.fastest);
   path.fastest += angle * path.furthest;
-  path.margin = size + path.fastest / 2;
+  path.margin = std::max(radius, std::sqrt(size)) + path.fastest / 2;
   return path;
 }
 
