@@ -33,7 +33,8 @@ inline constexpr double kDefaultSweepTolerance = 1e-3;
 /// that the queries are given in, at time `toi_upper`; NaN where no contact is proven.
 struct SweepColumns {
   /// `overlapping`: a contact is proven; `separated`: none is possible; `touching`: neither is, and what could not be
-  /// excluded comes as near to the shape as the query moves in the tolerance of time; `undecided`: the budget is spent.
+  /// excluded comes about as near to the shape as the query moves in the tolerance of time; `undecided`: the budget is
+  /// spent.
   std::uint8_t* status = nullptr;
   float* toi_lower = nullptr;  ///< there is no contact before it, proven; 1 where there is none at all
   /// With a contact, the time of it: f(point) < 0 is proven. Else the end of the times that could not be excluded.

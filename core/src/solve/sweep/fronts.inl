@@ -56,7 +56,7 @@ class Fronts {
       *column = arena.take<float>(kRoom);
     }
     query_ = arena.take<uint32_t>(kRoom);
-    looks_ = arena.take<uint32_t>(kRoom);
+    evaluations_ = arena.take<uint32_t>(kRoom);
     depth_ = arena.take<uint32_t>(kRoom);
     stack_ = arena.take<float>(kLanes * kStackDepth * kEntry);
     kernel_scratch_ = arena.take<float>(scratch_floats(*tile.tape));
@@ -103,14 +103,14 @@ class Fronts {
     far_factor_[lane] = SecondLooks<Cell>::kFirstFactor;
     upper_[lane] = open_lower_[lane] = kNever;
     open_upper_[lane] = 0;
-    looks_[lane] = 0;
+    evaluations_[lane] = 0;
     depth_[lane] = 0;
     return true;
   }
 
   void move(size_t from, size_t to) {
     query_[to] = query_[from];
-    looks_[to] = looks_[from];
+    evaluations_[to] = evaluations_[from];
     depth_[to] = depth_[from];
     for (size_t k = 0; k < kCoordinates; ++k) wave_.at[k][to] = wave_.at[k][from];
     for (float* column : {front_, step_, tolerance_, far_factor_, upper_, value_, open_lower_, open_upper_, uv_[0],
@@ -137,8 +137,8 @@ class Fronts {
       Cell::place(motion_, query_ + i, motion_.place(query_ + i, time), wave_, i);
     }
     tile_.kernels->gradient(*tile_.tape, wave_.centre, count_, wave_.value, wave_.gradient, kernel_scratch_);
-    second_looks_.run(tile_, motion_, {query_, time_, end_, before_, after_, gap_, far_factor_, looks_, count_}, wave_,
-                      kernel_scratch_);
+    second_looks_.run(tile_, motion_, {query_, time_, end_, before_, after_, gap_, far_factor_, evaluations_, count_},
+                      wave_, kernel_scratch_);
   }
 
   static HWY_INLINE void blend(M32 m, V32 yes, float* column) {
@@ -208,8 +208,7 @@ class Fronts {
     const auto is_small = hn::Or(hn::Le(loss, harmless), hn::Le(hn::Abs(hn::LoadU(d, wave_.reach + i)), slack));
     const auto gives_up = hn::And(hn::AndNot(clears, tries), is_small);
     const auto passed = hn::Max(time, hn::MulAdd(slack, per_value, front));
-    blend(gives_up, hn::Min(hn::LoadU(d, open_lower_ + i), front), open_lower_ + i);
-    blend(gives_up, hn::Max(hn::LoadU(d, open_upper_ + i), hn::Min(passed, one)), open_upper_ + i);
+    leave_open(i, gives_up, front, hn::Min(passed, one));
     const auto reached = hn::IfThenElse(clears, hn::Add(time, after), hn::IfThenElse(gives_up, passed, front));
     // The same where the front stands now, if it goes on as it does.
     const auto at_front = hn::NegMulAdd(a, hn::Sub(reached, time), value);
@@ -217,23 +216,39 @@ class Fronts {
     const auto limit = limit_of(i);
     const auto goes_on = hn::Lt(reached, limit);
     const auto splits = hn::And(goes_on, hn::AndNot(is_small, hn::Or(too_large, hn::AndNot(clears, tries))));
-    // Some of the way to a contact, or as far as it just came (measured: half the way costs as much).
-    const auto falling = hn::Gt(a, hn::Set(d, 0.05F));
-    const auto to_contact = hn::Div(hn::Mul(hn::Set(d, 0.15F), at_front), hn::IfThenElse(falling, a, one));
-    const auto ahead = hn::IfThenElse(falling, hn::Min(to_contact, hn::Add(after, step)), hn::Add(after, step));
     // Where the look was within the shape it says nothing of how far to look.
     const auto back = hn::IfThenElse(hn::Gt(value, hn::Zero(d)), hn::Mul(step, half), least);
-    const auto wanted = hn::Max(hn::IfThenElse(clears, ahead, back), least);
+    const auto wanted = hn::Max(hn::IfThenElse(clears, step_ahead(a, at_front, hn::Add(after, step)), back), least);
     // The middle of what is left is enough.
     const auto middle = hn::Max(hn::Mul(hn::Sub(limit, reached), hn::Set(d, 0.50001F)), hn::Mul(least, half));
     hn::StoreU(reached, d, front_ + i);
     hn::StoreU(hn::Min(wanted, middle), d, step_ + i);
     if (!hn::AllFalse(d, splits)) split(i, bits_of(splits));
+    return bits_of(hn::Or(count_looks(i), hn::Not(goes_on)));
+  }
+
+  /// The lanes' times from `front` to `passed` stay open.
+  HWY_INLINE void leave_open(size_t i, M32 lanes, V32 front, V32 passed) {
+    const F32 d;
+    blend(lanes, hn::Min(hn::LoadU(d, open_lower_ + i), front), open_lower_ + i);
+    blend(lanes, hn::Max(hn::LoadU(d, open_upper_ + i), passed), open_upper_ + i);
+  }
+
+  /// Some of the way to a contact, which is f over the rate `a` away, or as far as the front just came (measured: half
+  /// the way costs as much).
+  static HWY_INLINE V32 step_ahead(V32 a, V32 at_front, V32 came) {
+    const F32 d;
+    const auto falls = hn::Gt(a, hn::Set(d, 0.05F));
+    const auto to_contact = hn::Div(hn::Mul(hn::Set(d, 0.15F), at_front), hn::IfThenElse(falls, a, hn::Set(d, 1.0F)));
+    return hn::IfThenElse(falls, hn::Min(to_contact, came), came);
+  }
+
+  /// Counts the look of one vector of lanes. Returns those that have no budget for another.
+  HWY_INLINE M32 count_looks(size_t i) {
     const hn::RebindToUnsigned<F32> du;
-    const auto looks = hn::Add(hn::LoadU(du, looks_ + i), hn::Set(du, 1));
-    hn::StoreU(looks, du, looks_ + i);
-    const auto spent = hn::RebindMask(d, hn::Gt(looks, hn::Set(du, tile_.budget - kCost)));
-    return bits_of(hn::Or(spent, hn::Not(goes_on)));
+    const auto looks = hn::Add(hn::LoadU(du, evaluations_ + i), hn::Set(du, 1));
+    hn::StoreU(looks, du, evaluations_ + i);
+    return hn::RebindMask(F32(), hn::Gt(looks, hn::Set(du, tile_.budget - kCost)));
   }
 
   static HWY_INLINE uint64_t bits_of(M32 mask) {
@@ -276,7 +291,7 @@ class Fronts {
   /// Another cell for a lane whose own is clear; false when its query is done.
   bool goes_on(size_t lane) {
     const float limit = std::min(1.0F, upper_[lane] - tolerance_[lane]);
-    if ((full_lanes_ >> lane & 1) != 0 || looks_[lane] > tile_.budget - kCost) return spend(lane, limit);
+    if ((full_lanes_ >> lane & 1) != 0 || evaluations_[lane] > tile_.budget - kCost) return spend(lane, limit);
     if (front_[lane] < limit) return true;
     while (depth_[lane] > 0) {
       const float* const top = stack_ + (lane * kStackDepth + --depth_[lane]) * kEntry;
@@ -314,7 +329,7 @@ class Fronts {
     state_.value[q] = value_[lane];
     for (size_t axis = 0; axis < kAxes; ++axis) state_.point[axis][q] = point_[axis][lane];
     for (size_t c = 0; c < 2; ++c) state_.barycentric[c][q] = uv_[c][lane];
-    state_.evaluations[q] = looks_[lane];
+    state_.evaluations[q] = evaluations_[lane];
   }
 
   const SweepTile& tile_;
@@ -325,7 +340,7 @@ class Fronts {
   size_t count_ = 0;
   uint64_t full_lanes_ = 0;  ///< those whose stack has no room
   uint32_t* query_ = nullptr;
-  uint32_t* looks_ = nullptr;
+  uint32_t* evaluations_ = nullptr;
   uint32_t* depth_ = nullptr;
   float *front_ = nullptr, *step_ = nullptr, *time_ = nullptr, *end_ = nullptr, *tolerance_ = nullptr;
   float *before_ = nullptr, *after_ = nullptr, *gap_ = nullptr, *far_factor_ = nullptr;
