@@ -57,6 +57,15 @@ inline constexpr Golden kGolden[] = {
     {"pairs3_deepest", 0x1e0d5ec9daba3508, 0x53e27ce57af48f8c},
     {"distances2_all", 0x1922662490211ff8, 0x36825465de05b78c},  // libm
     {"distances3_all", 0x72f6b3f9d904a61f, 0x89435ac3d83a2fe4},
+    {"pairs2_many", 0x2b61c3aa583b2fc4, 0x07659525eb7e57e7},  // libm
+    {"distances2_many", 0x085238bf98b50180, 0x59c1fe900ee482ce},  // libm
+    {"sweeps2_ends", 0x320966d5194c2a18, 0x878c76b18430f461},
+    {"sweeps2_many", 0xa886dbbef1e5c103, 0x7b2359fb8e26d38c},
+    {"sweeps2_motions", 0x4cb21aeece1a5f96, 0xa34292921012aa0f},  // libm
+    {"sweeps2_circles", 0xcc1b646cf126b149, 0x7e714943675daab4},  // libm
+    {"sweeps3_ends", 0xef36968d156b5b4e, 0xdb5f51baf474e754},
+    {"sweeps3_motions", 0x033f93679bf23ca6, 0xb526d79836deccc8},  // libm
+    {"sweeps3_circles", 0xdb56d82e2c73a99f, 0xed7a5baa2da9ecbd},  // libm
     {"formula2_autodiff", 0x6ce718db8ba57e10, 0x9d8d7aa02a01c7cd},
     {"formula3_autodiff", 0x55cd362815a61a12, 0xb5fc3952b8ef0295},
     {"formula2_verdict", 0x4018950446077f8e, 0xb8d0cbc6f1030ee6},

@@ -62,6 +62,18 @@ Shape mover(int dimension) {
   return smooth_union(1, {box(Vec3{20, 4, 6}), sphere(9).translate(Vec3{18, 5, 0})});
 }
 
+/// Many parts, so that queries are answered in spatial order by shortened tapes.
+Shape many_parts2() {
+  Random random(7);
+  std::vector<Shape> parts;
+  for (int i = 0; i < 200; ++i) {
+    const Shape part = i % 2 == 0 ? circle(30) : star(40, 5, 3);
+    const double x = random.uniform(0, 1920);
+    parts.push_back(part.translate(Vec2{x, random.uniform(0, 1080)}));
+  }
+  return union_(parts);
+}
+
 struct Box {
   double least, most;
 };
@@ -127,6 +139,26 @@ std::vector<float> poses(Random& random, int dimension, std::size_t count) {
   return rows;
 }
 
+/// Ways of up to a fifth of the scene, and for motions turns of up to a radian; every third row does not turn.
+std::vector<float> ends_of(Random& random, int dimension, const std::vector<float>& triangles) {
+  std::vector<float> ends;
+  const double most = dimension == 2 ? 300 : 30;
+  for (const float x : triangles)
+    ends.push_back(static_cast<float>(static_cast<double>(x) + random.uniform(-most, most)));
+  return ends;
+}
+std::vector<float> motions(Random& random, int dimension, std::size_t count) {
+  std::vector<float> rows;
+  const double most = dimension == 2 ? 300 : 30;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (int axis = 0; axis < dimension; ++axis) rows.push_back(static_cast<float>(random.uniform(-most, most)));
+    if (dimension == 3) rows.push_back(1);
+    const double turn = i % 3 == 0 ? 0 : 0.5;
+    for (int k = 0; k < (dimension == 2 ? 1 : 3); ++k) rows.push_back(static_cast<float>(random.uniform(-turn, turn)));
+  }
+  return rows;
+}
+
 /// Rows that cannot be answered, among the others.
 void spoil(std::vector<float>& rows) {
   rows[rows.size() / 2] = std::numeric_limits<float>::quiet_NaN();
@@ -158,16 +190,25 @@ Workload::Workload(std::string_view name) {
   const std::string_view rest = name.substr(name.find('_') + 1);
   tape_ = compiled(is_3d ? scene3() : scene2());
   Random random(2026);
-  options_.goal = rest == "deepest" ? Goal::deepest : Goal::verdict;
+  options_.goal = rest == "deepest" || rest == "many" ? Goal::deepest : Goal::verdict;
   count_ = rest == "deepest" ? 300 : 3000;
   if (name.starts_with("grid")) {
     kind_ = Kind::grid;
     return;
   }
-  if (name.starts_with("pairs") || name.starts_with("distances")) {
+  if (name.starts_with("sweeps")) {
+    kind_ = Kind::sweeps;
+    count_ = rest == "many" ? 600 : 300;
+    if (rest == "many") tape_ = compiled(many_parts2());
+    has_circles_ = rest == "circles";
+    moves_scene_ = has_circles_ || rest == "motions";
+    rows_ = has_circles_ ? circles(random, d, count_) : triangles(random, d, count_);
+    moves_ = moves_scene_ ? motions(random, d, count_) : ends_of(random, d, rows_);
+  } else if (name.starts_with("pairs") || name.starts_with("distances")) {
     kind_ = name.starts_with("pairs") ? Kind::pairs : Kind::distances;
     second_ = compiled(mover(d));
     rows_ = poses(random, d, count_ = 200);
+    if (rest == "many") tape_ = compiled(many_parts2());
   } else if (name.starts_with("formula")) {
     tape_ = compiled(is_3d ? formula3() : formula2());
     kind_ = rest == "verdict" ? Kind::triangles : Kind::points;
@@ -193,6 +234,7 @@ std::uint64_t Workload::run(const Execution& execution) const {
   if (kind_ == Kind::grid) return run_grid(execution);
   if (kind_ == Kind::pairs) return run_pairs(execution);
   if (kind_ == Kind::distances) return run_distances(execution);
+  if (kind_ == Kind::sweeps) return run_sweeps(execution);
   return kind_ == Kind::points ? run_points(execution) : run_queries(execution);
 }
 
@@ -277,6 +319,26 @@ std::uint64_t Workload::run_distances(const Execution& execution) const {
   Hash hash;
   for (const auto* column : {&status, &converged}) hash.add(*column);
   for (const auto* column : {&distance, &lower, &point_a, &point_b, &normal}) hash.add(*column);
+  hash.add(evaluations);
+  return hash.value();
+}
+
+std::uint64_t Workload::run_sweeps(const Execution& execution) const {
+  const auto d = static_cast<std::size_t>(tape_.dimension);
+  auto status = filled<std::uint8_t>(count_), converged = status;
+  auto lower = filled<float>(count_), upper = lower, value = lower;
+  auto point = filled<float>(d * count_), normal = point, barycentric = filled<float>(3 * count_);
+  auto evaluations = filled<std::uint32_t>(count_);
+  const SweepColumns columns{status.data(), lower.data(),  upper.data(),       converged.data(),  value.data(),
+                             point.data(),  normal.data(), barycentric.data(), evaluations.data()};
+  SweepQueries queries{.rows = rows_.data(), .count = count_};
+  (moves_scene_ ? queries.motions : queries.ends) = moves_.data();
+  const auto summary = has_circles_ ? sweep_circles(tape_, queries, {}, columns, execution)
+                                    : sweep_triangles(tape_, queries, {}, columns, execution);
+  if (!summary) throw std::logic_error(to_string(summary.error()));
+  Hash hash;
+  for (const auto* column : {&status, &converged}) hash.add(*column);
+  for (const auto* column : {&lower, &upper, &value, &point, &normal, &barycentric}) hash.add(*column);
   hash.add(evaluations);
   return hash.value();
 }

@@ -39,13 +39,14 @@ class Workload {
   [[nodiscard]] const Tape& tape() const { return tape_; }
 
  private:
-  enum class Kind { triangles, circles, points, grid, pairs, distances };
+  enum class Kind { triangles, circles, points, grid, pairs, distances, sweeps };
 
   [[nodiscard]] std::uint64_t run_queries(const Execution& execution) const;
   [[nodiscard]] std::uint64_t run_points(const Execution& execution) const;
   [[nodiscard]] std::uint64_t run_grid(const Execution& execution) const;
   [[nodiscard]] std::uint64_t run_pairs(const Execution& execution) const;
   [[nodiscard]] std::uint64_t run_distances(const Execution& execution) const;
+  [[nodiscard]] std::uint64_t run_sweeps(const Execution& execution) const;
   [[nodiscard]] PairQueries pair_queries(const Tape* const* shapes) const;
 
   Kind kind_ = Kind::triangles;
@@ -54,6 +55,9 @@ class Workload {
   CollideOptions options_;
   Gradient gradient_ = Gradient::autodiff;
   std::vector<float> rows_;
+  std::vector<float> moves_;  ///< sweeps: ends of triangles or motions of the scene
+  bool moves_scene_ = false;
+  bool has_circles_ = false;
   std::size_t count_ = 0;
 };
 
