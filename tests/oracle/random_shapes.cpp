@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "thalweg/op_table.h"
+#include "thalweg/ops.h"
 #include "thalweg/scene.h"
 
 namespace thalweg::oracle {
@@ -141,6 +142,26 @@ Shape random_shape(Random& random, int dimension, int nodes) {
     left = std::max(left - share, 1);
   }
   return make(random, op, of);
+}
+
+Shape scattered_parts(int dimension, int groups) {
+  Random random(5);
+  std::vector<Shape> all;
+  for (int i = 0; i < groups; ++i) {
+    std::vector<Shape> parts;
+    for (int k = 0; k < 4; ++k) {
+      const auto at = [&] { return random.uniform(0, 1000); };
+      if (dimension == 2) {
+        parts.push_back(k % 2 == 0 ? circle(30).translate(Vec2{at(), at()})
+                                   : star(40, 5, 3).translate(Vec2{at(), at()}));
+      } else {
+        parts.push_back(k % 2 == 0 ? sphere(60).translate(Vec3{at(), at(), at()})
+                                   : box(Vec3{50, 30, 40}).translate(Vec3{at(), at(), at()}));
+      }
+    }
+    all.push_back(i % 2 == 0 ? smooth_union(3, parts) : union_(parts));
+  }
+  return union_(all);
 }
 
 std::string describe(const Shape& shape, std::uint64_t seed) {

@@ -23,6 +23,10 @@ namespace thalweg::oracle {
 /// An operator over given operands, or the operand itself when its row is a primitive.
 [[nodiscard]] Shape random_operator(Random& random, int op_index, const Shape& a, const Shape& b);
 
+/// Groups of four small primitives anywhere in a cube from 0 to 1000, every other group blended: a tape too long to be
+/// asked as a whole.
+[[nodiscard]] Shape scattered_parts(int dimension, int groups);
+
 /// What a failing test prints: the seed and a scene file that reproduces the shape.
 [[nodiscard]] std::string describe(const Shape& shape, std::uint64_t seed);
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "ordered_pairs.h"
-#include "random.h"
+#include "random_shapes.h"
 #include "thalweg/batch.h"
 #include "thalweg/ops.h"
 
@@ -27,25 +27,7 @@ constexpr double kWorld = 1000;
 /// So few rows at once are not ordered.
 constexpr std::size_t kFew = 20;
 
-Shape many_parts(int dimension) {
-  Random random(5);
-  std::vector<Shape> groups;
-  for (int i = 0; i < 60; ++i) {
-    std::vector<Shape> parts;
-    for (int k = 0; k < 4; ++k) {
-      const auto at = [&] { return random.uniform(0, kWorld); };
-      if (dimension == 2) {
-        parts.push_back(k % 2 == 0 ? circle(30).translate(Vec2{at(), at()})
-                                   : star(40, 5, 3).translate(Vec2{at(), at()}));
-      } else {
-        parts.push_back(k % 2 == 0 ? sphere(60).translate(Vec3{at(), at(), at()})
-                                   : box(Vec3{50, 30, 40}).translate(Vec3{at(), at(), at()}));
-      }
-    }
-    groups.push_back(i % 2 == 0 ? smooth_union(3, parts) : union_(parts));
-  }
-  return union_(groups);
-}
+Shape many_parts(int dimension) { return oracle::scattered_parts(dimension, 60); }
 
 Shape body(int dimension) {
   if (dimension == 2) return box(Vec2{25, 6}) | circle(9).translate(Vec2{25, 0});

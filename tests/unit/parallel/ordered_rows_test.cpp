@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "order.h"
-#include "random.h"
+#include "random_shapes.h"
 #include "thalweg/batch.h"
 #include "thalweg/ops.h"
 
@@ -24,24 +24,8 @@ using oracle::Random;
 
 constexpr double kWorld = 1000;
 
-Tape long_tape(int dimension, int size = 40) {
-  Random random(5);
-  std::vector<Shape> groups;
-  for (int i = 0; i < size; ++i) {
-    std::vector<Shape> parts;
-    for (int k = 0; k < 4; ++k) {
-      const auto at = [&] { return random.uniform(0, kWorld); };
-      if (dimension == 2) {
-        parts.push_back(k % 2 == 0 ? circle(30).translate(Vec2{at(), at()})
-                                   : star(40, 5, 3).translate(Vec2{at(), at()}));
-      } else {
-        parts.push_back(k % 2 == 0 ? sphere(60).translate(Vec3{at(), at(), at()})
-                                   : box(Vec3{50, 30, 40}).translate(Vec3{at(), at(), at()}));
-      }
-    }
-    groups.push_back(i % 2 == 0 ? smooth_union(3, parts) : union_(parts));
-  }
-  return std::move(compile(union_(groups))).value();
+Tape long_tape(int dimension, int groups = 40) {
+  return std::move(compile(oracle::scattered_parts(dimension, groups))).value();
 }
 
 struct Answers {
