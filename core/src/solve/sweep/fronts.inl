@@ -255,7 +255,7 @@ class Fronts {
     const F32 d;
     uint8_t bytes[8] = {};
     hn::StoreMaskBits(d, mask, bytes);
-    uint64_t bits;
+    uint64_t bits = 0;
     std::memcpy(&bits, bytes, sizeof(bits));
     return bits & (~uint64_t{0} >> (64 - hn::Lanes(d)));
   }
