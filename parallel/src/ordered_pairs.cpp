@@ -3,7 +3,6 @@
 #include "ordered_pairs.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "gradient/strategies.h"

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "solve/pairs/stand_in.h"
 
+#include <algorithm>
+
 namespace thalweg {
 namespace {
 

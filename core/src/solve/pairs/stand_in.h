@@ -5,9 +5,7 @@
 // so every evaluation asks where its points are, and no result depends on which tape gave it.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
-#include <limits>
 
 #include "kernels/kernels.h"
 #include "kernels/twin.h"

@@ -28,7 +28,6 @@ struct MovingWave {
   float* value = nullptr;
   float* speed[3] = {};   ///< of the centre
   float* speeds[9] = {};  ///< of corners, as edges
-  float* rate = nullptr;  ///< of f there
   float* probe[3] = {};   ///< a point of the cell where f may be lower
   float* probe_value = nullptr;
   float* probe_uv[2] = {};
@@ -41,7 +40,7 @@ struct MovingWave {
       for (float** column : {&centre[axis], &gradient[axis], &speed[axis], &probe[axis], &middle[axis]})
         *column = arena.take<float>(room);
     }
-    for (float** column : {&reach, &radius, &value, &rate, &probe_value, &probe_uv[0], &probe_uv[1]}) {
+    for (float** column : {&reach, &radius, &value, &probe_value, &probe_uv[0], &probe_uv[1]}) {
       *column = arena.take<float>(room);
     }
   }
@@ -57,7 +56,7 @@ struct MovingWave {
 template <int D>
 struct MovingTriangle {
   static constexpr int kAxes = D;
-  static constexpr size_t kParts = 3, kChildren = 2, kCoordinates = 6, kEdgeColumns = 3 * D;
+  static constexpr size_t kParts = 3, kChildren = 2, kCoordinates = 6;
   static constexpr float kRoot[kCoordinates] = {0, 0, 1, 0, 0, 1};
   static constexpr bool kIsBall = false;
   using Frame = Placed<D, kParts>;
@@ -202,7 +201,7 @@ struct MovingTriangle {
 template <int D>
 struct MovingBall {
   static constexpr int kAxes = D;
-  static constexpr size_t kParts = 1, kChildren = size_t{1} << D, kCoordinates = D + 1, kEdgeColumns = D;
+  static constexpr size_t kParts = 1, kChildren = size_t{1} << D, kCoordinates = D + 1;
   static constexpr float kRoot[4] = {0, 0, D == 2 ? 1 : 0, 1};
   static constexpr bool kIsBall = true;
   using Frame = Placed<D, kParts>;
