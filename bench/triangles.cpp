@@ -160,7 +160,7 @@ void two_threads(benchmark::State& state) {
   std::string error;
   auto scene = load_scene("small", error);
   if (!scene) return refuse(state, error);
-  Batch work(*std::move(scene), batch(kTriangles), Goal::verdict);
+  Batch work(*std::move(scene), batch(4 * kTriangles), Goal::verdict);
   if (error = wrong_answer(work); !error.empty()) return refuse(state, error);
   const auto one_thread = work.status;
   if (const auto summary = work.run(2); !summary || work.status != one_thread) {
