@@ -54,7 +54,8 @@ class EvaluateTask final : public TileTask, public OrderedBatch::Answer {
     if ((in_rows() || rule_.strategy != Gradient::closest_point) &&
         OrderedBatch::suits_points(tape_, points_.count, out_.gradient != nullptr)) {
       const Surroundings around{.bounds = false, .sizes = 0, .probe = in_rows() ? ProbeRule{} : rule_.probe};
-      OrderedBatch batch(tape_, {.dimension = d_}, points_.rows, points_.count, around, execution_);
+      constexpr PartSizes kParts{.most = 256, .few = 32, .in_pieces = false};
+      OrderedBatch batch(tape_, {.dimension = d_}, points_.rows, points_.count, around, execution_, kParts);
       complete = batch.run(*this);
     } else {
       complete = schedule(*this, points_.count, execution_.tile == 0 ? kTile : execution_.tile, execution_);

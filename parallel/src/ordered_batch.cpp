@@ -3,7 +3,8 @@
 //
 // The curve is cut into tasks of a few thousand neighbouring rows, whose tapes are shortened 32 tasks at a time. A task
 // gathers its rows and halves its box until 32 boxes are left or each has few rows; those get tapes of their own, and
-// boxes that still have many rows are halved on.
+// boxes that still have many rows are halved on. Before a part is answered
+// its tape is shortened once more, by an analysis of where its rows lie in pieces.
 #include "ordered_batch.h"
 
 #include <algorithm>
@@ -20,6 +21,8 @@ namespace {
 
 /// Where a part's tape is longer than this it is halved on, down to few rows.
 constexpr std::size_t kShortTape = 80;
+/// Where it is no longer than this, pieces of the region are not looked at.
+constexpr std::size_t kShortestInPieces = 12;
 /// Fewer points are not worth an order.
 constexpr std::size_t kLeastPoints = 256;
 /// Tasks for each worker, at least, where there are rows enough.
@@ -46,6 +49,33 @@ bool is_shortened(const Tape& tape) {
   return 8 * choices >= tape.instructions.size();
 }
 
+/// The region cut into `most` boxes, a power of two, of about the same width along every axis.
+void cut_into_pieces(const Region& region, std::size_t dimension, std::size_t most, std::vector<Region>& pieces) {
+  std::size_t cuts[3] = {1, 1, 1}, count = 1;
+  const auto width = [&](std::size_t axis) { return region.half[axis] / static_cast<float>(cuts[axis]); };
+  for (; count < most; count *= 2) {
+    std::size_t widest = 0;
+    for (std::size_t axis = 1; axis < dimension; ++axis) widest = width(axis) > width(widest) ? axis : widest;
+    cuts[widest] *= 2;
+  }
+  pieces.assign(count, region);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::size_t rest = i;
+    double square = 0;
+    for (std::size_t axis = 0; axis < dimension; ++axis) {
+      const auto place = static_cast<double>(2 * (rest % cuts[axis]) + 1) / static_cast<double>(cuts[axis]) - 1;
+      rest /= cuts[axis];
+      const double half = static_cast<double>(region.half[axis]) / static_cast<double>(cuts[axis]);
+      const double centre = static_cast<double>(region.centre[axis]) + place * static_cast<double>(region.half[axis]);
+      pieces[i].centre[axis] = static_cast<float>(centre);
+      const double own = 1.000001 * (half + 1e-6 * std::fabs(centre));
+      pieces[i].half[axis] = static_cast<float>(own);
+      square += own * own;
+    }
+    pieces[i].reach = static_cast<float>(1.000001 * std::sqrt(square));
+  }
+}
+
 }  // namespace
 
 struct OrderedBatch::Worker {
@@ -53,7 +83,9 @@ struct OrderedBatch::Worker {
   Shortener tasks;
   std::vector<std::unique_ptr<Shortener>> shorteners;  ///< by depth
   std::vector<std::unique_ptr<Tape>> tapes;            ///< by depth; 0 is the task's
-  std::vector<std::vector<Run>> runs;                  ///< by depth
+  Shortener pieces;
+  std::unique_ptr<Tape> of_part;       ///< of the part that is answered
+  std::vector<std::vector<Run>> runs;  ///< by depth
   std::vector<Region> regions;
   std::vector<float> rows;
   std::vector<Extent> extents;
@@ -156,8 +188,10 @@ OrderedBatch::Worker& OrderedBatch::worker(std::size_t index) {
   if (own == nullptr) own = std::make_unique<Worker>();
   if (!own->begun) {
     own->tasks.begin(tape_);
+    if (sizes_.in_pieces) own->pieces.begin(tape_);
     for (const auto& shortener : own->shorteners) shortener->begin(tape_);
     for (const auto& tape : own->tapes) *tape = tape_;
+    if (own->of_part != nullptr) *own->of_part = tape_;
     own->begun = true;
   }
   return *own;
@@ -196,6 +230,12 @@ Region OrderedBatch::region_of(const Extent& extent) const {
   for (float& half : region.half) half = (half + around) * 1.000001F;
   region.cell_reach = surroundings_.bounds ? extent.largest_row : 0;
   return region;
+}
+
+Region OrderedBatch::region_of(const Run& run, const Run& task, const Worker& worker) const {
+  Extent extent;
+  for (std::size_t i = run.begin; i < run.end; ++i) extent.add(worker.extents[i - task.begin]);
+  return region_of(extent);
 }
 
 void OrderedBatch::widen_by_probes(const Tape& tape, std::vector<Region>& regions, Arena& arena) const {
@@ -288,11 +328,7 @@ void OrderedBatch::solve_run(const Run& run, const Run& task, const Tape& tape, 
     return;
   }
   own.regions.clear();
-  for (const Run& part : own.runs[depth]) {
-    Extent extent;
-    for (std::size_t i = part.begin; i < part.end; ++i) extent.add(own.extents[i - task.begin]);
-    own.regions.push_back(region_of(extent));
-  }
+  for (const Run& part : own.runs[depth]) own.regions.push_back(region_of(part, task, own));
   widen_by_probes(tape, own.regions, own.arena);
   own.shorteners[depth]->analyse(tape, kernels_, own.regions);
   for (std::size_t i = 0; i < own.runs[depth].size(); ++i) {
@@ -307,9 +343,24 @@ void OrderedBatch::solve_run(const Run& run, const Run& task, const Tape& tape, 
   }
 }
 
-void OrderedBatch::answer_run(const Run& run, const Run& task, const Tape& tape, std::size_t index,
-                              Answer& answer) const {
-  const Worker& own = *memory_->workers[index];
+const Tape& OrderedBatch::shortened_by_pieces(const Run& run, const Run& task, const Tape& tape, Worker& own) const {
+  std::vector<Region>& regions = own.regions;
+  regions.assign(1, region_of(run, task, own));
+  if (!std::isfinite(regions[0].half[0])) return tape;
+  widen_by_probes(tape, regions, own.arena);
+  const Region whole = regions[0];
+  cut_into_pieces(whole, layout_.dimension, kernels_.pieces, regions);
+  own.pieces.analyse_pieces(tape, kernels_, regions);
+  if (own.of_part == nullptr) own.of_part = std::make_unique<Tape>(tape_);
+  own.pieces.shorten(0, *own.of_part);
+  return *own.of_part;
+}
+
+void OrderedBatch::answer_run(const Run& run, const Run& task, const Tape& long_tape, std::size_t index,
+                              Answer& answer) {
+  Worker& own = worker(index);
+  const bool has_pieces = sizes_.in_pieces && long_tape.instructions.size() > kShortestInPieces;
+  const Tape& tape = has_pieces ? shortened_by_pieces(run, task, long_tape, own) : long_tape;
   const std::span<const std::uint32_t> order(memory_->order.rows());
   // A cell of the curve may hold any number of rows.
   constexpr std::size_t kMostRows = 4096;

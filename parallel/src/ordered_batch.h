@@ -24,9 +24,11 @@ struct Surroundings {
 };
 
 /// Rows of a part: no more than `most`, unless they share a cell, and where its tape is still long no more than `few`.
+/// The sizes are those of queries (measured, growth/primitives).
 struct PartSizes {
-  std::size_t most = 256;
-  std::size_t few = 32;
+  std::size_t most = 512;
+  std::size_t few = 64;
+  bool in_pieces = true;  ///< where its rows lie is looked at piece by piece, by an analysis for each part
 };
 
 class OrderedBatch {
@@ -78,8 +80,10 @@ class OrderedBatch {
   void gather(const Run& run, Worker& worker) const;
   void solve_run(const Run& run, const Run& task, const Tape& tape, std::size_t depth, std::size_t worker,
                  Answer& answer);
-  void answer_run(const Run& run, const Run& task, const Tape& tape, std::size_t worker, Answer& answer) const;
+  void answer_run(const Run& run, const Run& task, const Tape& tape, std::size_t worker, Answer& answer);
+  const Tape& shortened_by_pieces(const Run& run, const Run& task, const Tape& tape, Worker& worker) const;
   [[nodiscard]] Region region_of(const Extent& extent) const;
+  [[nodiscard]] Region region_of(const Run& run, const Run& task, const Worker& worker) const;
   void widen_by_probes(const Tape& tape, std::vector<Region>& regions, Arena& arena) const;
   Worker& worker(std::size_t index);
 

@@ -11,10 +11,10 @@
 namespace thalweg {
 namespace {
 
-/// A pair asks hundreds of evaluations of its tapes: even a single row is worth a tape of its own, and where that is
-/// short anyway a cohort of them fills the lanes (measured, growth/pairs).
+/// A pair asks hundreds of evaluations of its tapes: even a few rows are worth a tape of their own, and where that is
+/// short anyway a cohort of them fills the lanes (measured, growth/pairs and growth/distances).
 constexpr std::size_t kLeastRows = 32;
-constexpr PartSizes kParts{.most = 32, .few = 1};
+constexpr PartSizes kParts{.most = 32, .few = 8};
 /// How far around its zone a row is expected to evaluate, in smaller diagonals, by dimension. A descent's longest step
 /// and the furthest far points are half of one; in space a smaller box is worth some evaluations of the whole tape.
 constexpr double kAround[] = {0.5, 0.25};

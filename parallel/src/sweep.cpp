@@ -26,7 +26,7 @@ constexpr std::size_t kLeastTile = 256;
 constexpr std::size_t kTilesPerWorker = 8;
 /// Of parts near a long tape: a few queries take hundreds of looks, and would have the lanes of a small part for
 /// themselves (measured, growth/sweeps).
-constexpr PartSizes kParts{.most = 1024, .few = 128};
+constexpr PartSizes kParts{.most = 4096, .few = 256};
 
 /// Calls visit(width, columns.c...) for every column c, with its numbers per row.
 template <class Visit, class... Columns>

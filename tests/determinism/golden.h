@@ -60,7 +60,7 @@ inline constexpr Golden kGolden[] = {
     {"pairs2_many", 0x2b61c3aa583b2fc4, 0x07659525eb7e57e7},  // libm
     {"distances2_many", 0x085238bf98b50180, 0x59c1fe900ee482ce},  // libm
     {"sweeps2_ends", 0x320966d5194c2a18, 0x878c76b18430f461},
-    {"sweeps2_many", 0xa886dbbef1e5c103, 0x7b2359fb8e26d38c},
+    {"sweeps2_many", 0x74c2bc4935eebdfc, 0x2f48dfde6059b23a},
     {"sweeps2_motions", 0x4cb21aeece1a5f96, 0xa34292921012aa0f},  // libm
     {"sweeps2_circles", 0xcc1b646cf126b149, 0x7e714943675daab4},  // libm
     {"sweeps3_ends", 0xef36968d156b5b4e, 0xdb5f51baf474e754},

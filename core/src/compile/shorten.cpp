@@ -36,22 +36,35 @@ void Shortener::begin(const Tape& full) {
   positions_.assign(static_cast<std::size_t>(full.position_count), 0);
 }
 
-void Shortener::analyse(const Tape& from, const Kernels& kernels, std::span<const Region> regions, float band) {
+void Shortener::take_memory(const Tape& from, std::size_t programs) {
   const std::size_t length = from.instructions.size();
   arena_.reset();
   groups_.clear();
-  streams_.assign(regions.size(), {});
+  streams_.assign(programs, {});
   work_.scratch = arena_.take<float>(scratch_floats(from));
   work_.record = arena_.take<float>(length * 4 * kRegionLanes);
   work_.use = arena_.take<InstructionUse>(length);
   work_.ranges = ranges_.data();
   work_.positions = positions_.data();
+}
+
+void Shortener::analyse(const Tape& from, const Kernels& kernels, std::span<const Region> regions, float band) {
+  take_memory(from, regions.size());
   for (std::size_t first = 0; first < regions.size(); first += kRegionLanes) {
     const auto own = regions.subspan(first, std::min(kRegionLanes, regions.size() - first));
     groups_.push_back(columns_of(own, band));
     kernels.regions(from, groups_.back(), work_);
     write(from, {&streams_[first], own.size()});
   }
+}
+
+void Shortener::analyse_pieces(const Tape& from, const Kernels& kernels, std::span<const Region> pieces) {
+  take_memory(from, 1);
+  groups_.push_back(columns_of(pieces, kInfinity));
+  groups_.back().are_pieces = true;
+  kernels.regions(from, groups_.back(), work_);
+  // What is needed for the first piece is for all.
+  write(from, streams_);
 }
 
 RegionColumns Shortener::columns_of(std::span<const Region> regions, float band) {
@@ -116,9 +129,11 @@ void Shortener::write(const Tape& from, std::span<Stream> streams) {
   for (std::size_t i = 0; i < streams.size(); ++i) {
     streams[i].instructions = reinterpret_cast<Instruction*>(memory) + i * room;
   }
+  const auto written = static_cast<std::uint32_t>((std::uint64_t{1} << streams.size()) - 1);
   static const auto constant = static_cast<std::uint8_t>(ops::find_function("constant"));
   for (std::size_t i = 0; i < length; ++i) {
-    const InstructionUse& use = work_.use[i];
+    InstructionUse use = work_.use[i];
+    use.run &= written;
     if (use.run == 0) continue;
     const Instruction& in = from.instructions[i];
     Instruction unread = in;

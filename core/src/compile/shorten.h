@@ -41,6 +41,9 @@ class Shortener {
   /// gives another value there, on the same side of the band, and where all values are beyond it no tape is written.
   void analyse(const Tape& from, const Kernels& kernels, std::span<const Region> regions,
                float band = std::numeric_limits<float>::infinity());
+  /// The same for one region that is given as up to Kernels::pieces pieces. Their intervals are narrower than its own,
+  /// so more can be left out than by looking at it as a whole.
+  void analyse_pieces(const Tape& from, const Kernels& kernels, std::span<const Region> pieces);
   /// What float32 computes for f lies within [lower, upper] all over a region that was analysed.
   [[nodiscard]] float lower(std::size_t region) const { return groups_[region / kRegionLanes].lower[lane(region)]; }
   [[nodiscard]] float upper(std::size_t region) const { return groups_[region / kRegionLanes].upper[lane(region)]; }
@@ -64,6 +67,7 @@ class Shortener {
   };
 
   static std::size_t lane(std::size_t region) { return region % kRegionLanes; }
+  void take_memory(const Tape& from, std::size_t programs);
   [[nodiscard]] RegionColumns columns_of(std::span<const Region> regions, float band);
   void write(const Tape& from, std::span<Stream> streams);
 

@@ -16,6 +16,7 @@ namespace thalweg {
 [[nodiscard]] RowsKernel rows_entry(std::int64_t target);
 [[nodiscard]] EnclosureKernel enclosure_entry(std::int64_t target);
 [[nodiscard]] RegionKernel regions_entry(std::int64_t target);
+[[nodiscard]] std::size_t most_pieces_of(std::int64_t target);
 [[nodiscard]] RangeKernel ranges_entry(std::int64_t target);
 [[nodiscard]] FinishKernel finish_entry(std::int64_t target);
 [[nodiscard]] TriangleSolver certify_triangles_entry(std::int64_t target);

@@ -9,6 +9,8 @@
 // foreach_target must come first
 #include <hwy/highway.h>
 
+#include <algorithm>
+
 #include "kernels/relevance.inl"
 
 HWY_BEFORE_NAMESPACE();
@@ -86,7 +88,9 @@ void regions_of(const Tape& tape, const RegionColumns& regions, const RegionWork
   using T = Pack<kGradientWidth>;
   const Machine<T> m = machine_for<IntervalMode<T, D>>(tape, work.scratch);
   const size_t lanes = lanes_of<T>();
-  for (size_t i = 0; i < kRegionLanes; i += lanes) {
+  // Pieces are those of one chunk.
+  const size_t end = regions.are_pieces ? std::min(lanes, kRegionLanes) : kRegionLanes;
+  for (size_t i = 0; i < end; i += lanes) {
     for (int axis = 0; axis < D; ++axis) {
       store(Make<T>::load(regions.centre[axis] + i), m.positions + static_cast<size_t>(axis) * lanes);
     }
@@ -100,7 +104,7 @@ void regions_of(const Tape& tape, const RegionColumns& regions, const RegionWork
     const auto least = Make<T>::load(regions.least + i), most = Make<T>::load(regions.most + i);
     const auto decided = either(f.hi < least, most < f.lo);
     const T infinity = Make<T>::set(std::numeric_limits<float>::infinity());
-    Relevance<T> relevance(tape, work, record, Make<T>::load(regions.gap + i), i / lanes);
+    Relevance<T> relevance(tape, work, record, regions, i / lanes);
     relevance.run({select(decided, infinity, least), select(decided, -infinity, most)});
   }
 }
@@ -108,6 +112,8 @@ void regions_of(const Tape& tape, const RegionColumns& regions, const RegionWork
 void regions_kernel(const Tape& tape, const RegionColumns& regions, const RegionWork& work) {
   tape.dimension == 2 ? regions_of<2>(tape, regions, work) : regions_of<3>(tape, regions, work);
 }
+
+size_t most_pieces() { return std::min(lanes_of<Pack<kGradientWidth>>(), kRegionLanes); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace thalweg
@@ -118,6 +124,8 @@ HWY_AFTER_NAMESPACE();
 #include "kernels/entries.h"
 namespace thalweg {
 HWY_EXPORT(regions_kernel);
+HWY_EXPORT(most_pieces);
 RegionKernel regions_entry(std::int64_t target) { return THALWEG_ENTRY_OF(regions_kernel, target); }
+std::size_t most_pieces_of(std::int64_t target) { return THALWEG_ENTRY_OF(most_pieces, target)(); }
 }  // namespace thalweg
 #endif

@@ -135,6 +135,7 @@ struct Kernels {
   RowsKernel rows = nullptr;
   EnclosureKernel enclosure = nullptr;
   RegionKernel regions = nullptr;
+  std::size_t pieces = 0;  ///< of one region that `regions` takes at once
   RangeKernel ranges = nullptr;
   FinishKernel finish = nullptr;
   TriangleSolver certify_triangles = nullptr;

@@ -22,6 +22,8 @@ struct RegionColumns {
   /// Values of f that matter: of those beyond, only on which side they lie. None when least > most.
   float *least = nullptr, *most = nullptr;
   float *lower = nullptr, *upper = nullptr;
+  /// They are pieces of one region, Kernels::pieces of them at most: what one of them needs, all do.
+  bool are_pieces = false;
 };
 /// What an instruction is needed for, a bit per region.
 struct InstructionUse {

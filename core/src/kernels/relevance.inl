@@ -16,6 +16,10 @@
 // it and upper ones above. Where values up to C matter so do lower ends up to C and upper ends up to C + gap, and each
 // choice cuts the three alike: b > C + gap leaves b out of all, and the gap is not added again further down.
 //
+// Pieces of one region share a tape. What one of them needs is kept for all; of an operand that they could do without,
+// the others then ask what they would of one that they need: to be right up to C, and above C beyond. Where both
+// operands lie above C a piece asks for neither of them, since either will do.
+//
 // At the root the caller says what matters.
 // Included once per SIMD target.
 #if defined(THALWEG_KERNELS_RELEVANCE_INL) == defined(HWY_TARGET_TOGGLE)
@@ -125,8 +129,15 @@ template <class T>
 class Relevance {
  public:
   /// `record` ends with the operands of the last choice: intervals of both, as if for the least of two.
-  Relevance(const Tape& tape, const RegionWork& work, const float* record_end, T gap, size_t chunk)
-      : tape_(tape), work_(work), record_(record_end), gap_(gap), shift_(chunk * lanes_of<T>()), chunk_(chunk) {}
+  Relevance(const Tape& tape, const RegionWork& work, const float* record_end, const RegionColumns& regions,
+            size_t chunk)
+      : tape_(tape),
+        work_(work),
+        record_(record_end),
+        gap_(Make<T>::load(regions.gap + chunk * lanes_of<T>())),
+        are_pieces_(regions.are_pieces),
+        shift_(chunk * lanes_of<T>()),
+        chunk_(chunk) {}
 
   HWY_INLINE void run(Interval<T> root) {
     accumulator_ = root;
@@ -238,6 +249,15 @@ class Relevance {
   }
 
   template <class M>
+  static HWY_INLINE bool any(M m) {
+    return bits_of(m) != 0;
+  }
+  template <class M>
+  static HWY_INLINE M none(M m) {
+    return differ(m, m);
+  }
+
+  template <class M>
   HWY_INLINE void choose(const Instruction& in, Role role, M live, Interval<T> matters, InstructionUse& use) {
     const auto first = load_interval<T>(record_, lanes_of<T>());
     const auto second = load_interval<T>(record_ + 2 * lanes_of<T>(), lanes_of<T>());
@@ -251,11 +271,16 @@ class Relevance {
       first_most = min(add_up(second.hi, width), most);
       second_most = min(add_up(first.hi, width), most);
     }
-    const M second_out = add_up(second_most, gap_) < second.lo;
+    M needs_second = without(live, add_up(second_most, gap_) < second.lo);
+    M needs_first = without(live, add_up(first_most, gap_) < first.lo);
+    if (are_pieces_) {
+      needs_second = any(needs_second) ? live : none(live);
+      needs_first = any(needs_first) || !any(needs_second) ? live : none(live);
+    } else {
+      needs_first = either(needs_first, without(live, needs_second));
+    }
     // Without the first operand a falling one would be left, which no load can negate.
-    const M first_out = without(add_up(first_most, gap_) < first.lo, second_out);
-    const M needs_second = without(live, second_out);
-    const M needs_first = role.second_falls ? live : without(live, first_out);
+    if (role.second_falls) needs_first = live;
     // Where what matters lies above all of the one operand, the other one still counts for its side of that.
     Interval<T> of_first = where(needs_first, {matters.lo, max(first_most, matters.lo)});
     Interval<T> of_second = where(needs_second, {matters.lo, max(second_most, matters.lo)});
@@ -272,7 +297,8 @@ class Relevance {
   template <class M>
   HWY_INLINE void guard(const Instruction& in, M live, Interval<T> matters, InstructionUse& use) {
     const T first = Make<T>::load(record_);
-    const M asks_first = without(live, first == first);
+    M asks_first = without(live, first == first);
+    if (are_pieces_ && any(asks_first)) asks_first = live;
     const Interval<T> of_first = where(asks_first, everything());
     const Interval<T> of_second = where(live, matters);
     const bool swapped = (in.flags & Instruction::kSwapped) != 0;
@@ -286,6 +312,7 @@ class Relevance {
   const RegionWork& work_;
   const float* record_;
   T gap_;
+  bool are_pieces_;
   size_t shift_, chunk_;
   Interval<T> accumulator_{};
 };

@@ -37,6 +37,7 @@ TargetList make_targets() {
                             .rows = rows_entry(target),
                             .enclosure = enclosure_entry(target),
                             .regions = regions_entry(target),
+                            .pieces = most_pieces_of(target),
                             .ranges = ranges_entry(target),
                             .finish = finish_entry(target),
                             .certify_triangles = certify_triangles_entry(target),

@@ -74,13 +74,19 @@ Region random_region(Random& random, int dimension, double world) {
   return region;
 }
 
-void expect_the_same_bits(const Tape& full, Shortener& shortener, std::span<const Region> regions, Random& random,
-                          const std::string& scene) {
+/// Of regions on their own, or of pieces of one, of which a target takes so many.
+void expect_the_same_bits(const Tape& full, Shortener& shortener, std::span<const Region> regions, bool are_pieces,
+                          Random& random, const std::string& scene) {
   Tape tape = full;
   for (const Target& target : targets()) {
-    shortener.analyse(full, *target.kernels, regions);
+    if (are_pieces) {
+      regions = regions.first(std::min(regions.size(), target.kernels->pieces));
+      shortener.analyse_pieces(full, *target.kernels, regions);
+    } else {
+      shortener.analyse(full, *target.kernels, regions);
+    }
     for (std::size_t i = 0; i < regions.size(); ++i) {
-      shortener.shorten(i, tape);
+      shortener.shorten(are_pieces ? 0 : i, tape);
       const Cells cells(random, regions[i], full.dimension);
       auto expected = answers(full, *target.kernels, cells);
       auto found = answers(tape, *target.kernels, cells);
@@ -109,7 +115,9 @@ TEST_P(RandomScenes, KeepTheirBits) {
     shortener.begin(full);
     std::vector<Region> regions;
     for (int i = 0; i < 5; ++i) regions.push_back(random_region(random, dimension, 20));
-    expect_the_same_bits(full, shortener, regions, random, oracle::describe(shape, seed));
+    for (const bool are_pieces : {false, true}) {
+      expect_the_same_bits(full, shortener, regions, are_pieces, random, oracle::describe(shape, seed));
+    }
   }
 }
 
@@ -146,6 +154,31 @@ TEST(Shortened, TapeHoldsWhatIsNearWhateverTheOrderOfTheUnions) {
     EXPECT_GT(full.instructions.size(), 700U);
     EXPECT_LT(tape.instructions.size(), 12U) << tape.disassembly();
   }
+}
+
+TEST(Shortened, TapesShortenFurtherByPiecesOfARegion) {
+  const Tape full = tape_of(scattered_discs(20, 0.01));
+  Shortener shortener;
+  shortener.begin(full);
+  Region whole;
+  whole.centre[0] = whole.centre[1] = 8;
+  whole.half[0] = whole.half[1] = 2;
+  whole.reach = 2.9F;
+  std::vector<Region> pieces;
+  for (int i = 0; i < 8; ++i) {
+    Region& piece = pieces.emplace_back();
+    piece.centre[0] = 6.5F + static_cast<float>(i % 4);
+    piece.centre[1] = i < 4 ? 7 : 9;
+    piece.half[0] = 0.5F;
+    piece.half[1] = 1;
+    piece.reach = 1.12F;
+  }
+  Tape by_whole = full, by_pieces = full;
+  shortener.analyse(full, *default_target().kernels, {&whole, 1});
+  shortener.shorten(0, by_whole);
+  shortener.analyse_pieces(full, *default_target().kernels, pieces);
+  shortener.shorten(0, by_pieces);
+  EXPECT_LT(by_pieces.instructions.size(), 2 * by_whole.instructions.size() / 3);
 }
 
 TEST(Shortened, TapesShortenFurtherInSmallerRegions) {

@@ -104,7 +104,7 @@ Path path_of(const SweepTile& tile, std::size_t row, bool is_ball) {
   const double angle = std::fabs(path.angle) * kUp;
   path.bend = angle * (angle * path.furthest + 2 * path.fastest);
   path.fastest += angle * path.furthest;
-  path.margin = std::max(radius, std::sqrt(size)) + path.fastest / 2;
+  path.margin = std::max(radius, std::sqrt(size)) + path.fastest / 8;
   return path;
 }
 

@@ -19,7 +19,7 @@ struct Path {
   double fastest = 0;   ///< speed of a point
   double furthest = 0;  ///< distance of a point from the scene's origin
   double bend = 0;      ///< acceleration of a point
-  double margin = 0;    ///< the query's size and half its way
+  double margin = 0;    ///< the query's size and an eighth of its way
 };
 [[nodiscard]] Path path_of(const SweepTile& tile, std::size_t row, bool is_ball);
 
