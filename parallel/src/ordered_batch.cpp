@@ -3,8 +3,8 @@
 //
 // The curve is cut into tasks of a few thousand neighbouring rows, whose tapes are shortened 32 tasks at a time. A task
 // gathers its rows and halves its box until 32 boxes are left or each has few rows; those get tapes of their own, and
-// boxes that still have many rows are halved on. Before a part is answered
-// its tape is shortened once more, by an analysis of where its rows lie in pieces.
+// boxes that still have many rows are halved on. Before a part is answered its tape is shortened once more, by an
+// analysis of where its rows lie in pieces.
 #include "ordered_batch.h"
 
 #include <algorithm>

@@ -83,13 +83,15 @@ struct IntervalMode {
   static HWY_INLINE void save(const Register& a, float* to) { store_interval(a, to, lanes_of<T>()); }
 };
 
+/// Those of one chunk.
+size_t most_pieces() { return std::min(lanes_of<Pack<kGradientWidth>>(), kRegionLanes); }
+
 template <int D>
 void regions_of(const Tape& tape, const RegionColumns& regions, const RegionWork& work) {
   using T = Pack<kGradientWidth>;
   const Machine<T> m = machine_for<IntervalMode<T, D>>(tape, work.scratch);
   const size_t lanes = lanes_of<T>();
-  // Pieces are those of one chunk.
-  const size_t end = regions.are_pieces ? std::min(lanes, kRegionLanes) : kRegionLanes;
+  const size_t end = regions.are_pieces ? most_pieces() : kRegionLanes;
   for (size_t i = 0; i < end; i += lanes) {
     for (int axis = 0; axis < D; ++axis) {
       store(Make<T>::load(regions.centre[axis] + i), m.positions + static_cast<size_t>(axis) * lanes);
@@ -112,8 +114,6 @@ void regions_of(const Tape& tape, const RegionColumns& regions, const RegionWork
 void regions_kernel(const Tape& tape, const RegionColumns& regions, const RegionWork& work) {
   tape.dimension == 2 ? regions_of<2>(tape, regions, work) : regions_of<3>(tape, regions, work);
 }
-
-size_t most_pieces() { return std::min(lanes_of<Pack<kGradientWidth>>(), kRegionLanes); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace thalweg
